@@ -44,7 +44,7 @@ pub fn run(args: &InspectArgs) -> Result<ExitCode> {
         Some(text) => On::parse(text)?,
         None => On::Device(DeviceSelect::Default),
     };
-    let mut scene = args.overrides.load(&args.scene)?;
+    let mut scene = args.overrides.load(&args.scene, true)?;
     args.overrides.apply(&mut scene)?;
     prepare_folder(&args.out, PAGE)?;
     prune(&mut scene);

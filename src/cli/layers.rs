@@ -12,6 +12,7 @@ use crate::core::film::Film;
 use crate::core::layer::Layer;
 use crate::core::progress::Progress;
 use crate::lab::inspect::picture::picture;
+use crate::lab::inspect::uses::name_of;
 use crate::output::{self, Format, Named, WriteOptions};
 use crate::render::layers::{Aov, render_layers};
 use crate::render::{On, Options, Picture};
@@ -26,6 +27,13 @@ pub struct LayerArgs {
     /// Write the layers alone, without the picture
     #[arg(long, requires = "aov", conflicts_with = "json", help_heading = OUTPUT)]
     no_beauty: bool,
+}
+
+impl LayerArgs {
+    /// Returns true if a layer numbers shapes, of which each mesh has to be one.
+    pub fn numbers_meshes(&self) -> bool {
+        self.aov.contains(&Aov::Instance)
+    }
 }
 
 /// A false-colour picture and its file.
@@ -102,7 +110,7 @@ impl Wanted {
         scene: &Scene,
         options: &WriteOptions,
     ) -> Result<()> {
-        let names: Vec<String> = scene.materials.iter().map(|material| material.name.clone()).collect();
+        let names: Vec<String> = (0..scene.materials.len()).map(|number| name_of(scene, number)).collect();
         let layer = |aov: Aov| layers.iter().find(|layer| layer.name == aov.name());
         let films: Vec<Film> = self
             .pictures

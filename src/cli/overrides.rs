@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 use crate::core::error::Result;
 use crate::core::range::Rect;
 use crate::integrators::adaptive::Goal;
-use crate::scene::MAX_RADIUS;
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
+use crate::scene::{MAX_RADIUS, Reading};
 use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
 use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
@@ -68,9 +68,9 @@ pub struct Overrides {
 }
 
 impl Overrides {
-    /// Reads the scene of a file, seen by the chosen camera.
-    pub fn load(&self, path: &Path) -> Result<Scene> {
-        crate::scene::load_seen_by(path, self.camera.as_deref())
+    /// Reads the scene of a file, seen by the chosen camera. `keeps_meshes`: the layer `instance` numbers them.
+    pub fn load(&self, path: &Path, keeps_meshes: bool) -> Result<Scene> {
+        crate::scene::load_as(path, &Reading { camera: self.camera.as_deref(), keeps_meshes })
     }
 
     /// Applies the options to the scene and returns a description of settings that were chosen

@@ -91,7 +91,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         on.push(On::Device(DeviceSelect::Default));
     }
     let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
-    let mut scene = args.overrides.load(&args.scene)?;
+    let mut scene = args.overrides.load(&args.scene, args.layers.numbers_meshes())?;
     let chosen = args.overrides.apply(&mut scene)?;
     args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
     for path in &outputs.files {

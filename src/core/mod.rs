@@ -6,6 +6,7 @@ pub mod error;
 pub mod film;
 pub mod layer;
 pub mod named;
+pub mod number;
 pub mod panics;
 pub mod progress;
 pub mod range;

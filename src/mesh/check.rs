@@ -1,9 +1,9 @@
-//! What must hold for a mesh of any format: finite numbers, indices of what exists, a number of triangles within the
+//! What must hold for a mesh of any format but glTF: finite numbers, indices of what exists, a number of triangles within the
 //! limit.
 
 use rayon::prelude::*;
 
-use super::{Fault, Mesh};
+use super::{Fault, Mesh, winding};
 
 /// Elements that a thread takes at once.
 const AT_ONCE: usize = 1 << 13;
@@ -16,17 +16,15 @@ pub(super) fn count(triangles: usize, most: usize) -> Result<(), Fault> {
     Err(Fault::new("", format!("it has more than {most} triangles, the most a scene may have")))
 }
 
-/// Returns the mesh if all its numbers are finite and all its indices in range.
-pub(super) fn checked(mesh: Mesh) -> Result<Mesh, Fault> {
+/// Returns the mesh if its positions and texture coordinates are finite and all its indices in range; normals that are not
+/// finite count as none, and fronts are where normals point.
+pub(super) fn checked(mut mesh: Mesh) -> Result<Mesh, Fault> {
     let infinite = |what: &str, index: usize| Fault::new(format!("{what} {index}"), "a number is not finite");
     if let Some(i) = first(&mesh.positions, |p| !p.is_finite()) {
         return Err(infinite("position", i));
     }
     if let Some(i) = first(&mesh.uvs, |uv| !uv.is_finite()) {
         return Err(infinite("texture coordinate", i));
-    }
-    if let Some(i) = first(&mesh.normals, |n| !n.is_finite()) {
-        return Err(infinite("normal", i));
     }
     let wrong = |index: usize| {
         let triangle = mesh.triangles.get(index);
@@ -44,6 +42,7 @@ pub(super) fn checked(mesh: Mesh) -> Result<Mesh, Fault> {
     if let Some((i, what)) = all.find_map_first(|i| Some((i, wrong(i)?))) {
         return Err(Fault::new(format!("triangle {i}"), what));
     }
+    winding::settle(&mut mesh);
     Ok(mesh)
 }
 

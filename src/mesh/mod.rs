@@ -12,6 +12,7 @@ mod stl;
 mod tangents;
 mod text;
 mod triangles;
+mod winding;
 
 use std::fmt;
 
@@ -74,6 +75,15 @@ impl Mesh {
         self.triangles.set_material(material);
     }
 
+    /// Returns the number of triangles without texture coordinates that have a material which is `textured`, and the name of
+    /// the first of these.
+    pub fn lacking_uvs(&self, textured: impl Fn(usize) -> bool) -> Option<(usize, &str)> {
+        let bare = self.triangles.iter().filter(|triangle| triangle.uvs.is_none());
+        let mut bare = bare.filter_map(|triangle| triangle.material).map(|own| own as usize);
+        let first = bare.find(|&own| textured(own))?;
+        Some((1 + bare.filter(|&own| textured(own)).count(), self.materials.get(first)?))
+    }
+
     /// Returns the least and the greatest coordinates of all corners.
     pub fn bounds(&self) -> [DVec3; 2] {
         let corners = self.triangles.positions().as_flattened();
@@ -94,6 +104,19 @@ pub struct MeshTriangle {
     pub normals: Option<[u32; 3]>,
     /// Into the names of materials, if it names one.
     pub material: Option<u32>,
+}
+
+impl MeshTriangle {
+    /// Returns it seen from its back.
+    pub fn reversed(&self) -> MeshTriangle {
+        let swap = |[a, b, c]: [u32; 3]| [a, c, b];
+        MeshTriangle {
+            positions: swap(self.positions),
+            uvs: self.uvs.map(swap),
+            normals: self.normals.map(swap),
+            ..*self
+        }
+    }
 }
 
 /// Why a file is no mesh.
@@ -119,6 +142,9 @@ impl fmt::Display for Fault {
         f.write_str(&self.what)
     }
 }
+
+/// Materials that a file or a library may have: as many as a scene may have shapes.
+const MAX_MATERIALS: usize = 65_535;
 
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug)]

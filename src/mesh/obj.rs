@@ -1,14 +1,20 @@
 //! Wavefront OBJ. Input: the text of a file, in UTF-8 as far as its names matter. Output: its faces, cut into
-//! triangles, with the names of their materials and of the files that define these. Curves, lines, points and groups
-//! are passed over.
+//! triangles, with the names of their materials and of the files that define these. Curves, lines, points and words that
+//! are unknown are left out and noted.
 
-use std::collections::HashMap;
+mod face;
+mod left_out;
+
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DVec2, DVec3, Vec4};
 
 use super::relative::inside;
-use super::text::{first_word, lines, number, quoted, words};
-use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
+use super::text::{first_word, float, lines, number, quoted, words};
+use super::{Fault, MAX_MATERIALS, Mesh, MeshFormat, MeshTriangle, check, polygon};
+use face::{Face, pick};
+use left_out::LeftOut;
 
 /// The format.
 pub(super) const FORMAT: MeshFormat = MeshFormat { name: "OBJ", ending: "obj", read };
@@ -17,15 +23,19 @@ pub(super) const FORMAT: MeshFormat = MeshFormat { name: "OBJ", ending: "obj", r
 fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
     let mut reader = Reader::default();
     for (number, line) in lines(bytes)? {
-        reader.statement(&line).map_err(|what| Fault::new(format!("line {number}"), what))?;
+        reader.statement(&line, number).map_err(|what| Fault::new(format!("line {number}"), what))?;
         // Here, so that a file over the limit does not fill the memory first.
         check::count(reader.mesh.triangles.len(), most)?;
     }
     if reader.mesh.triangles.is_empty() {
         return Err(Fault::new("", "it has no faces; at least one of three corners is needed"));
     }
+    reader.mesh.notes.extend(reader.left_out.notes());
     check::checked(reader.mesh)
 }
+
+/// Libraries that a file may name.
+const MAX_LIBRARIES: usize = 1024;
 
 /// What was read so far.
 #[derive(Default)]
@@ -35,18 +45,11 @@ struct Reader {
     material: Option<u32>,
     /// Where the mesh holds the name of a material.
     materials: HashMap<String, u32>,
+    /// The libraries that were named.
+    libraries: HashSet<String>,
+    left_out: LeftOut,
     /// The face being read; kept, so that faces share the memory.
     face: Face,
-}
-
-/// Indices of the corners of a face.
-#[derive(Default)]
-struct Face {
-    positions: Vec<u32>,
-    /// As many as positions, or none.
-    uvs: Vec<u32>,
-    /// As many as positions, or none.
-    normals: Vec<u32>,
 }
 
 impl Reader {
@@ -66,16 +69,35 @@ impl Reader {
     }
 
     /// Reads one line, or returns what is wrong with it.
-    fn statement(&mut self, line: &[u8]) -> Result<(), String> {
+    fn statement(&mut self, line: &[u8], number: usize) -> Result<(), String> {
         let (keyword, rest) = first_word(line);
-        match keyword {
+        let capitals = keyword.iter().any(u8::is_ascii_uppercase);
+        let keyword = if capitals { Cow::Owned(keyword.to_ascii_lowercase()) } else { keyword.into() };
+        match keyword.as_ref() {
             b"v" => self.vertex(rest)?,
             b"vt" => self.mesh.uvs.push(DVec2::from_array(numbers(rest, 1, "texture coordinate")?)),
-            b"vn" => self.mesh.normals.push(DVec3::from_array(numbers(rest, 3, "normal")?)),
+            // Programs write what is not finite where they could not make a normal.
+            b"vn" => self.mesh.normals.push(DVec3::from_array(numbers_by(float, rest, 3, "normal")?)),
             b"f" => self.face(rest)?,
             b"usemtl" => self.use_material(&String::from_utf8_lossy(rest))?,
-            b"mtllib" if !rest.is_empty() => self.mesh.libraries.extend(libraries(rest)?),
-            _ => {}
+            b"mtllib" if rest.is_empty() => {}
+            b"mtllib" => {
+                for library in libraries(rest)? {
+                    self.library(library)?;
+                }
+            }
+            other => self.left_out.add(other, number),
+        }
+        Ok(())
+    }
+
+    /// Adds a library, unless it was named before.
+    fn library(&mut self, name: String) -> Result<(), String> {
+        if self.libraries.insert(name.clone()) {
+            if self.mesh.libraries.len() == MAX_LIBRARIES {
+                return Err(format!("more than {MAX_LIBRARIES} different libraries are named"));
+            }
+            self.mesh.libraries.push(name);
         }
         Ok(())
     }
@@ -85,6 +107,9 @@ impl Reader {
         self.material = match self.materials.get(name) {
             _ if name.is_empty() => None,
             Some(index) => Some(*index),
+            None if self.mesh.materials.len() == MAX_MATERIALS => {
+                return Err(format!("more than {MAX_MATERIALS} different materials are named"));
+            }
             None => {
                 let index = u32::try_from(self.mesh.materials.len()).map_err(|e| e.to_string())?;
                 self.mesh.materials.push(name.to_owned());
@@ -125,38 +150,6 @@ impl Reader {
     }
 }
 
-impl Face {
-    /// Replaces the corners by those of a line, which refer to what the mesh holds so far.
-    fn read(&mut self, rest: &[u8], mesh: &Mesh) -> Result<(), String> {
-        self.positions.clear();
-        self.uvs.clear();
-        self.normals.clear();
-        for corner in words(rest) {
-            if self.positions.len() == polygon::MOST_CORNERS {
-                return Err(format!("face has more than {} corners", polygon::MOST_CORNERS));
-            }
-            let mut parts = corner.split(|byte| *byte == b'/');
-            let position = parts.next().unwrap_or_default();
-            self.positions.push(index(position, mesh.positions.len(), "vertex")?);
-            if let Some(uv) = parts.next().filter(|part| !part.is_empty()) {
-                self.uvs.push(index(uv, mesh.uvs.len(), "texture coordinate")?);
-            }
-            if let Some(normal) = parts.next().filter(|part| !part.is_empty()) {
-                self.normals.push(index(normal, mesh.normals.len(), "normal")?);
-            }
-            if parts.next().is_some() {
-                return Err(format!("{} has more than three indices", quoted(corner)));
-            }
-        }
-        for list in [&mut self.uvs, &mut self.normals] {
-            if list.len() != self.positions.len() {
-                list.clear();
-            }
-        }
-        Ok(())
-    }
-}
-
 /// Returns the files that a statement names: one whose name may have spaces, or several of which each has its ending.
 fn libraries(rest: &[u8]) -> Result<Vec<String>, String> {
     let line = String::from_utf8_lossy(rest).replace('\\', "/");
@@ -167,28 +160,18 @@ fn libraries(rest: &[u8]) -> Result<Vec<String>, String> {
     names.into_iter().map(|name| inside(name).map_err(|why| refused(name, why))).collect()
 }
 
-/// Returns three elements of a list, or nothing if it lacks one.
-fn pick(list: &[u32], [a, b, c]: [usize; 3]) -> Option<[u32; 3]> {
-    Some([*list.get(a)?, *list.get(b)?, *list.get(c)?])
-}
-
-/// Turns an index of the file, from 1 or backwards from -1, into one from 0. `count` elements are defined above.
-fn index(word: &[u8], count: usize, what: &str) -> Result<u32, String> {
-    let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse::<i64>().ok());
-    let given = parsed.ok_or_else(|| format!("{} is no whole number", quoted(word)))?;
-    if given == 0 {
-        return Err(format!("face refers to {what} 0; the first is 1"));
-    }
-    let all = i64::try_from(count).unwrap_or(i64::MAX);
-    let from_zero = if given > 0 { given - 1 } else { given.saturating_add(all) };
-    u32::try_from(from_zero)
-        .ok()
-        .filter(|_| from_zero < all)
-        .ok_or_else(|| format!("face refers to {what} {given}; {count} are defined above"))
-}
-
-/// Reads up to `N` numbers, of which `least` must be there; the others are 0.
+/// Reads up to `N` finite numbers, of which `least` must be there; the others are 0.
 fn numbers<const N: usize>(rest: &[u8], least: usize, what: &str) -> Result<[f64; N], String> {
+    numbers_by(number, rest, least, what)
+}
+
+/// Reads numbers as [`numbers`] does, each by this function.
+fn numbers_by<const N: usize>(
+    number: fn(&[u8]) -> Result<f64, String>,
+    rest: &[u8],
+    least: usize,
+    what: &str,
+) -> Result<[f64; N], String> {
     let mut found = [0.0; N];
     let mut count = 0;
     for (slot, word) in found.iter_mut().zip(words(rest)) {
@@ -268,7 +251,7 @@ mod tests {
             ("f /1 2 3", "line 7: \"\" is no whole number"),
             ("v 1 2", "line 7: vertex has 2 numbers; it needs 3"),
             ("v 1 abc 2", "line 7: \"abc\" is no number"),
-            ("vn 1 1e999 2", "line 7: \"1e999\" is no number"),
+            ("vn 1 x 2", "line 7: \"x\" is no number"),
             (&many, "line 7: face has more than 10000 corners"),
             (
                 "mtllib ../../../etc/passwd",

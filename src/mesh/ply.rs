@@ -38,6 +38,7 @@ fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
             surfaces.add_waiting(&mut mesh)?;
         } else if header::is_surface(element) {
             surfaces.read(&mut body, element, &mut mesh)?;
+            mesh.notes.extend(header::colors_note(element));
         } else {
             (0..element.count).try_for_each(|i| body.skip(element, i))?;
         }

@@ -1,11 +1,12 @@
 //! Reads STL files (3D Systems, Stereolithography Interface Specification, 1988), binary and as text. Input: the bytes of
 //! a file. Output: flat triangles; the normals of the file say no more than the corners do and are left.
 
-use std::str::{FromStr, SplitAsciiWhitespace};
+mod text;
 
 use glam::DVec3;
 
 use super::{Fault, Mesh, MeshFormat, Triangles, check};
+use crate::core::counted::counted;
 
 pub(super) const FORMAT: MeshFormat = MeshFormat { name: "STL", ending: "stl", read };
 
@@ -26,7 +27,7 @@ fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
         None if !is_text => {
             Err(Fault::new("", "it is no STL file: neither \"solid\" nor a header of 84 bytes"))
         }
-        _ => text(bytes, most),
+        _ => check::checked(of_corners(text::corners(bytes, most)?)),
     }
 }
 
@@ -49,8 +50,14 @@ fn binary(bytes: &[u8], count: u32, most: usize) -> Result<Mesh, Fault> {
     let records = bytes[HEADER..needed as usize].chunks_exact(RECORD);
     let number = |bytes: &[u8]| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
     let corner = |bytes: &[u8]| DVec3::new(number(bytes), number(&bytes[4..]), number(&bytes[8..]));
-    let corners = records.flat_map(|record| [12, 24, 36].map(|first| corner(&record[first..first + 12])));
+    let corners =
+        records.clone().flat_map(|record| [12, 24, 36].map(|first| corner(&record[first..first + 12])));
     let mut mesh = of_corners(corners.collect());
+    let colored = colored(&bytes[..HEADER], records);
+    if colored > 0 {
+        let triangles = counted(colored, "triangle");
+        mesh.notes.push(format!("left out: colours of {triangles}, which STL itself does not know"));
+    }
     let further = bytes.len() as u64 - needed;
     if further > 0 {
         mesh.notes
@@ -59,54 +66,19 @@ fn binary(bytes: &[u8], count: u32, most: usize) -> Result<Mesh, Fault> {
     check::checked(mesh)
 }
 
+/// Returns the number of triangles whose two bytes of attributes are a colour. Bit 15 says so (VisCAM), or says that it is
+/// not (Magics, whose header names a colour for the others).
+fn colored<'a>(header: &[u8], records: impl Iterator<Item = &'a [u8]>) -> usize {
+    let of_magics = header.windows(6).any(|word| word == b"COLOR=");
+    records.filter(|record| (record[RECORD - 1] & 0x80 == 0) == of_magics).count()
+}
+
 /// Returns the mesh of triangles that share no corner.
 fn of_corners(positions: Vec<DVec3>) -> Mesh {
     let triangle = |first: u32| [first, first + 1, first + 2];
     let triangles = (0..positions.len() as u32).step_by(3).map(triangle).collect();
     let triangles = Triangles::of_vertices(triangles, false, false, None);
     Mesh { positions, triangles, ..Mesh::default() }
-}
-
-fn text(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
-    let mut positions: Vec<DVec3> = Vec::new();
-    // The corners of the facet that is being read.
-    let mut first = 0;
-    for (line, bytes) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
-        let place = || format!("line {line}");
-        let shown = String::from_utf8_lossy(bytes);
-        let mut words = shown.split_ascii_whitespace();
-        match words.next().map(str::to_ascii_lowercase).as_deref() {
-            Some("vertex") => positions.push(corner(&mut words).map_err(|what| Fault::new(place(), what))?),
-            Some("facet") => first = positions.len(),
-            Some("endfacet") if positions.len() - first != 3 => {
-                let what = format!("a facet has 3 vertices, not {}", positions.len() - first);
-                return Err(Fault::new(place(), what));
-            }
-            Some("endfacet") => check::count(positions.len() / 3, most)?,
-            Some("solid" | "endsolid" | "outer" | "endloop") | None => {}
-            Some(word) => {
-                let what =
-                    format!("{word:?} is no word of STL; facet, outer loop, vertex, endloop, endfacet are");
-                return Err(Fault::new(place(), what));
-            }
-        }
-        if positions.len() - first > 3 {
-            return Err(Fault::new(place(), "a facet has 3 vertices, not more"));
-        }
-    }
-    match positions.len() {
-        0 => Err(Fault::new("", "it has no facets")),
-        count if count % 3 != 0 => Err(Fault::new("", "it ends within a facet")),
-        _ => check::checked(of_corners(positions)),
-    }
-}
-
-fn corner(words: &mut SplitAsciiWhitespace<'_>) -> Result<DVec3, String> {
-    let mut number = || {
-        let word = words.next().ok_or("a vertex has 3 coordinates")?;
-        f64::from_str(word).map_err(|_| format!("{word:?} is no number"))
-    };
-    Ok(DVec3::new(number()?, number()?, number()?))
 }
 
 #[cfg(test)]

@@ -7,8 +7,17 @@ use super::Fault;
 
 /// Reads a finite number.
 pub(super) fn number(word: &[u8]) -> Result<f64, String> {
+    float(word).ok().filter(|number| number.is_finite()).ok_or_else(|| no_number(word))
+}
+
+/// Reads a number that may be infinite, or none.
+pub(super) fn float(word: &[u8]) -> Result<f64, String> {
     let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
-    parsed.filter(|number| number.is_finite()).ok_or_else(|| format!("{} is no number", quoted(word)))
+    parsed.ok_or_else(|| no_number(word))
+}
+
+fn no_number(word: &[u8]) -> String {
+    format!("{} is no number", quoted(word))
 }
 
 /// Quotes a word for a message, shortened if it is long.

@@ -5,6 +5,9 @@ use rayon::prelude::*;
 
 use super::MeshTriangle;
 
+/// Triangles that a thread looks at together.
+const AT_ONCE: usize = 1 << 12;
+
 /// Stands for no index.
 const NONE: u32 = u32::MAX;
 
@@ -122,6 +125,18 @@ impl Triangles {
         self.positions.push(positions);
     }
 
+    /// Turns those around of which this is true; returns their number.
+    pub fn turn_where(&mut self, turns: impl Fn(&MeshTriangle) -> bool + Sync) -> usize {
+        let places = (0..self.len()).into_par_iter().with_min_len(AT_ONCE);
+        let turned: Vec<usize> = places.filter(|&place| turns(&self.get(place))).collect();
+        for &place in &turned {
+            self.positions[place].swap(1, 2);
+            self.uvs.turn(place);
+            self.normals.turn(place);
+        }
+        turned.len()
+    }
+
     /// Adds the triangles of another list.
     pub fn append(&mut self, others: Triangles) {
         if self.is_empty() {
@@ -138,6 +153,13 @@ impl Corners {
             Corners::Absent => None,
             Corners::Same => Some(positions),
             Corners::Own(list) => Some(list[index]).filter(|corners| *corners != [NONE; 3]),
+        }
+    }
+
+    /// Turns the triangle at a place around, whose positions are turned as well.
+    fn turn(&mut self, place: usize) {
+        if let Corners::Own(list) = self {
+            list[place].swap(1, 2);
         }
     }
 
@@ -234,6 +256,27 @@ mod tests {
                     assert_eq!(all.have_one_material(), a.material == b.material && b.material == c.material);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn turned_triangles_are_seen_from_their_backs() {
+        let of = |own: [u32; 3], material| MeshTriangle {
+            positions: [own[0], own[1] + 4, own[2]],
+            uvs: Some(own),
+            normals: None,
+            material,
+        };
+        for uvs_differ in [false, true] {
+            let mut expected: Vec<MeshTriangle> =
+                [[0, 1, 2], [2, 1, 3], [4, 0, 1]].map(|own| of(own, Some(1))).to_vec();
+            if !uvs_differ {
+                expected.iter_mut().for_each(|triangle| triangle.uvs = Some(triangle.positions));
+            }
+            let mut all: Triangles = expected.iter().copied().collect();
+            assert_eq!(all.turn_where(|triangle| triangle.positions[0] == 2), 1);
+            expected[1] = expected[1].reversed();
+            assert_eq!(all.iter().collect::<Vec<_>>(), expected);
         }
     }
 

@@ -20,6 +20,7 @@ mod resample;
 mod sample_dimensions;
 mod sections;
 mod stored_levels;
+mod texel_format;
 mod texture_lines;
 mod textures;
 mod tile_culling;

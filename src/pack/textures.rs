@@ -6,10 +6,12 @@ use crate::core::color::srgb_table;
 use crate::core::error::{Error, Result};
 use crate::scene::model::{Footprint, Scene};
 use crate::schema::layout::{self, Texture};
-use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
+use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TextureData};
+use crate::texture::room::{bytes_of_levels, check_room, no_room};
 use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 use crate::texture::{mips, prefix_sums, summed};
 
+use super::texel_format::{linear_floats, needs_linear_floats, without_equal_channels};
 use super::{MipPlacement, PackedScene, TextureKind, stored_levels};
 
 /// One image descriptor: a texture and its sampler. Look-ups of method shader fetch texels and ignore the sampler, so
@@ -81,20 +83,25 @@ pub fn pack_textures(
         if kernel != MipKernel::Stored {
             texture.stored_levels.clear();
         }
-        let texture = without_equal_channels(texture);
+        let texture = without_equal_channels(texture)?;
         let mut texture =
-            if needs_linear_floats(&texture, scene, index) { linear_floats(&texture) } else { texture };
+            if needs_linear_floats(&texture, scene, index) { linear_floats(&texture)? } else { texture };
         let kind = kind(&texture);
         let levels = if !reads_levels {
             Vec::new()
         } else if kernel == MipKernel::Stored {
             std::mem::take(&mut texture.stored_levels)
         } else if packed.nonfinite_texels[index] > 0 {
+            // Copies of the texels and their shares, and the levels of both.
+            let bytes = 2 * (texture.texels.len() + bytes_of_levels(&texture, kernel));
+            check_room(&texture, "its mip levels", bytes)?;
             mips::mip_chain_of_finite(&texture)
         } else if mip_chains.leaves(&texture, kernel) {
             packed.device_levels.push(index);
+            check_room(&texture, "its mip levels", bytes_of_levels(&texture, kernel))?;
             mips::zeroed_levels(&texture)
         } else {
+            check_room(&texture, "its mip levels", bytes_of_levels(&texture, kernel))?;
             mips::mip_chain(&texture, kernel)
         };
         let record = Texture {
@@ -105,7 +112,13 @@ pub fn pack_textures(
             kind,
             ..Texture::default()
         };
-        let table = if tables(index, packed) { Some(summed::table(&texture)) } else { None };
+        let table = if tables(index, packed) {
+            let bytes = summed::words(&texture) * size_of::<u32>();
+            check_room(&texture, "its summed-area table", bytes)?;
+            Some(summed::table(&texture))
+        } else {
+            None
+        };
         let first_word = append(packed, texture, levels, table)?;
         packed.records.textures[index] = Texture { first_word, ..record };
         if pooled[index] {
@@ -184,13 +197,17 @@ fn append(
             "use smaller textures, or fewer",
         ));
     }
+    let more = |held: usize| end * 4 - held;
+    let no_room = |held: usize| no_room(&texture.name, "its texels", more(held));
     let pointers: Vec<u8> = words.iter().rev().flat_map(|&word| (word as u32).to_ne_bytes()).collect();
     if packed.texels.is_empty() {
         packed.texels = texture.texels;
-        packed.texels.reserve_exact(end * 4 - packed.texels.len());
+        let held = packed.texels.len();
+        packed.texels.try_reserve_exact(more(held)).map_err(|_| no_room(held))?;
         packed.texels.splice(0..0, pointers);
     } else {
-        packed.texels.reserve_exact(end * 4 - packed.texels.len());
+        let held = packed.texels.len();
+        packed.texels.try_reserve_exact(more(held)).map_err(|_| no_room(held))?;
         packed.texels.extend(pointers);
         packed.texels.extend_from_slice(&texture.texels);
     }
@@ -205,51 +222,6 @@ fn append(
         packed.summed_tables = true;
     }
     Ok(start as u32)
-}
-
-/// Stores a colour texture whose texels are all opaque grey, in all its levels, as grey: a quarter of the memory, and of
-/// the arithmetic of a look-up. The first coloured texel ends the search.
-fn without_equal_channels(texture: TextureData) -> TextureData {
-    if texture.format.channels() != 4 {
-        return texture;
-    }
-    let component = texture.format.component();
-    let greys = |level: &TextureData| match component {
-        Component::Unorm8 => opaque_greys::<1>(&level.texels, component.one()),
-        Component::Unorm16 => opaque_greys::<2>(&level.texels, component.one()),
-        Component::Float32 => opaque_greys::<4>(&level.texels, component.one()),
-    };
-    let Some(first) = greys(&texture) else { return texture };
-    let Some(levels) = texture.stored_levels.iter().map(greys).collect::<Option<Vec<_>>>() else {
-        return texture;
-    };
-    let grey =
-        |level: TextureData, texels| TextureData { texels, format: TexelFormat::new(1, component), ..level };
-    let mut texture = grey(texture, first);
-    let stored = std::mem::take(&mut texture.stored_levels);
-    texture.stored_levels =
-        stored.into_iter().zip(levels).map(|(level, texels)| grey(level, texels)).collect();
-    texture
-}
-
-/// Returns the first of four channels of `WIDTH` bytes each, if the next two equal it and the last is `one`.
-fn opaque_greys<const WIDTH: usize>(texels: &[u8], one: [u8; 4]) -> Option<Vec<u8>> {
-    let (pixels, _) = texels.as_chunks::<WIDTH>().0.as_chunks::<4>();
-    let grey = |p: &[[u8; WIDTH]; 4]| p[0] == p[1] && p[0] == p[2] && p[3][..] == one[..WIDTH];
-    pixels.iter().all(grey).then(|| pixels.iter().flat_map(|p| p[0]).collect())
-}
-
-/// Returns true if the texture must be decoded on the host, as drivers support sRGB with 8 bits only.
-fn needs_linear_floats(texture: &TextureData, scene: &Scene, index: usize) -> bool {
-    texture.color_space == ColorSpace::Srgb
-        && texture.format.component() == Component::Unorm16
-        && readers(scene, index).any(|sampler| sampler.method == Method::Hardware)
-}
-
-fn linear_floats(texture: &TextureData) -> TextureData {
-    let floats =
-        texture.with_floats(texture.format.channels(), |x, y, c| texture.linear_value(x, y, c) as f32);
-    TextureData { stored_levels: texture.stored_levels.iter().map(linear_floats).collect(), ..floats }
 }
 
 /// Returns the slot of this pair among those of its kind, new or shared; textures that need no image have none.

@@ -1,6 +1,7 @@
 //! Renders a scene from its texture files to the film; every caller that renders a scene once uses it. Input: a scene,
 //! options, and the backends that take the samples. Output: the film and statistics.
 
+use std::collections::HashSet;
 use std::sync::mpsc;
 use std::time::Instant;
 
@@ -255,7 +256,10 @@ fn pack(
     let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
     let textures = scene.textures.iter().map(|t| load_with_notes(t, values)).collect::<Result<Vec<_>>>()?;
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
-    let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
+    // Several textures may be of one file.
+    let mut told = HashSet::new();
+    let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
+    let doubts: Vec<String> = notes.chain(of_textures(scene, &textures)).collect();
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
     Ok((pack::pack_with(scene, textures, options.crop, mip_chains)?, doubts))
 }

@@ -2,6 +2,7 @@
 //! or from code. Out: the whole scene, every reference checked and every number within its limits, or what is wrong
 //! with the first part that breaks a rule.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -10,7 +11,7 @@ use super::checks;
 use super::geometry::{self, Fields, Kind, Section, Shapes};
 use super::limits::{MAX_TEXTURES, check_filters};
 use super::model::{
-    Background, Camera, DEFAULT, Light, Material, PixelFilter, Sampling, Scene, TextureSource,
+    Background, Camera, DEFAULT, Light, MappingKind, Material, PixelFilter, Sampling, Scene, TextureSource,
 };
 use super::refusal::{Check, Key};
 use super::tiles;
@@ -24,6 +25,10 @@ pub struct SceneBuilder {
     scene: Scene,
     /// The first shape that is one too many.
     over: Option<Key>,
+    /// Meshes stay whole, and nodes of glTF files apart.
+    keeps_meshes: bool,
+    /// Warnings, each with its place among them and how often it was told.
+    notes: HashMap<String, (usize, usize)>,
 }
 
 impl SceneBuilder {
@@ -47,13 +52,33 @@ impl SceneBuilder {
             sources: Vec::new(),
             notes: Vec::new(),
         };
-        SceneBuilder { scene, over: None }
+        SceneBuilder { scene, over: None, keeps_meshes: false, notes: HashMap::new() }
     }
 
     /// Names the scene, for messages.
     pub fn path(&mut self, path: &Path) -> &mut Self {
         self.scene.path = path.to_owned();
         self
+    }
+
+    /// Makes each mesh, and each node of a glTF file with its material, a shape of its own, whatever its number of
+    /// triangles.
+    /// Returns what held before.
+    pub(super) fn keep_meshes(&mut self, keeps: bool) -> bool {
+        std::mem::replace(&mut self.keeps_meshes, keeps)
+    }
+
+    /// Returns true if a material has a texture that it reads by coordinates of triangles.
+    pub(super) fn is_textured(&self, material: usize) -> bool {
+        let material = self.scene.materials.get(material);
+        material.is_some_and(|own| own.is_mapped() && own.mapping.kind == MappingKind::Surface)
+    }
+
+    /// Returns true if a mesh of this material has to be a shape of its own, as one of its triangles would have another
+    /// number, box or centre.
+    pub(super) fn is_kept_whole(&self, material: usize) -> bool {
+        let mapping = self.scene.materials.get(material).map(|material| material.mapping);
+        self.keeps_meshes || mapping.is_some_and(|mapping| mapping.depends_on_shape())
     }
 
     /// Sets the camera and the pixels of the picture anew.
@@ -130,9 +155,24 @@ impl SceneBuilder {
         self.scene.sources.push(path);
     }
 
-    /// Adds a warning about the files of the scene.
+    /// Adds a warning about the files of the scene; the same one more often is told once, with its count.
     pub(super) fn note(&mut self, note: String) {
-        self.scene.notes.push(note);
+        match self.notes.get_mut(&note) {
+            Some((_, count)) => *count += 1,
+            None => {
+                self.notes.insert(note, (self.notes.len(), 1));
+            }
+        }
+    }
+
+    /// Gives the scene its warnings, in the order in which each was first told.
+    fn tell(&mut self) {
+        let mut notes: Vec<_> = std::mem::take(&mut self.notes).into_iter().collect();
+        notes.sort_unstable_by_key(|(_, (place, _))| *place);
+        self.scene.notes.extend(notes.into_iter().map(|(note, (_, count))| match count {
+            1 => note,
+            _ => format!("{note} ({count} times)"),
+        }));
     }
 
     /// Adds a light.
@@ -151,6 +191,7 @@ impl SceneBuilder {
     /// Returns the scene, or the item and key that break a rule.
     pub(super) fn check(mut self) -> Check<Scene> {
         self.check_counts()?;
+        self.tell();
         self.complete();
         let scene = &self.scene;
         checks::camera(Key::item("camera", 0), &scene.camera)?;

@@ -73,6 +73,13 @@ pub struct Mapping {
     pub rotate: f64,
 }
 
+impl Mapping {
+    /// Returns true if the box or the centre of a shape decides where its points are mapped.
+    pub fn depends_on_shape(&self) -> bool {
+        self.kind != MappingKind::Surface && (self.space == Space::Bounds || self.entity == Entity::Centroid)
+    }
+}
+
 impl Default for Mapping {
     fn default() -> Self {
         Mapping {

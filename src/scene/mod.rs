@@ -27,6 +27,6 @@ mod tiles;
 mod whole;
 
 pub use builder::SceneBuilder;
-pub use formats::{STANDARD_INPUT, is_standard_input, load, load_seen_by, parse};
+pub use formats::{Reading, STANDARD_INPUT, is_standard_input, load, load_as, load_seen_by, parse};
 pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};
 pub use whole::Scene;

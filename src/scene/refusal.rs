@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::limits::{COORDINATE, Limits};
 use crate::core::error::{Error, ErrorKind};
+use crate::core::number::{shown, shown_vector};
 
 /// The result of a check.
 pub(super) type Check<T = ()> = Result<T, Box<Refusal>>;
@@ -73,7 +74,7 @@ impl Key {
     pub fn number(self, x: f64, limits: &Limits) -> Check {
         match x.is_finite() {
             true if (limits.allow)(x) => Ok(()),
-            true => self.expect(format!("a number {}", limits.words), x),
+            true => self.expect(format!("a number {}", limits.words), shown(x)),
             false => self.expect("a finite number".into(), x),
         }
     }
@@ -101,7 +102,7 @@ impl Key {
                 return key.expect(format!("{count} finite numbers"), x);
             }
             if !allow(x) {
-                return key.expect(format!("{count} numbers {}", limits.words), x);
+                return key.expect(format!("{count} numbers {}", limits.words), shown(x));
             }
         }
         Ok(())
@@ -115,7 +116,8 @@ impl Key {
     pub fn direction(self, vector: DVec3) -> Check {
         self.vector(vector, &COORDINATE)?;
         if vector.abs().max_element() < 1e-30 {
-            return self.expect("a vector that is not zero (shorter than 1e-30)".into(), vector);
+            return self
+                .expect("a vector that is not zero (shorter than 1e-30)".into(), shown_vector(vector));
         }
         Ok(())
     }

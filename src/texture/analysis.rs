@@ -106,8 +106,9 @@ pub fn analyse(texture: &TextureData) -> Analysis {
         let finite = (width * height) as u64 - channel.nan - channel.infinite;
         channel.mean = (finite > 0).then(|| sum / finite as f64);
     }
-    let u = axis(&u, || rows.lines(width, height, true));
-    let v = axis(&v, || rows.lines(height, width, false));
+    let grain = rows.grain();
+    let u = axis(&u, || rows.lines(width, height, true), grain);
+    let v = axis(&v, || rows.lines(height, width, false), grain);
     Analysis { channels, non_finite_texels, first_non_finite, u, v }
 }
 
@@ -143,7 +144,8 @@ pub fn channel_names(texture: &TextureData) -> &'static [&'static str] {
     &names[..texture.file_channels]
 }
 
-fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>) -> AxisAnalysis {
+/// `grain`: by how much roundings change the difference of two steps.
+fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>, grain: f32) -> AxisAnalysis {
     let (seam_rms, interior_rms) = (steps.seam_rms(), steps.interior_rms());
     let ratio = match (seam_rms, interior_rms) {
         (Some(seam), Some(interior)) if interior > 0.0 => Some(seam / interior),
@@ -166,7 +168,7 @@ fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>) -> AxisAnalysis {
         (Some(0.0), _) if steps.all_differ() => Seam::Doubled,
         (_, Some(rank)) => {
             let nearest = steps.nearest_to_seam();
-            axis.period = period(&lines());
+            axis.period = period(&lines(), grain);
             axis.recurrence = nearest.map(|n| n[0]);
             classify(&rank, axis.period, nearest)
         }

@@ -14,6 +14,8 @@ const PERIODIC: f64 = 0.9;
 const DECORRELATED: f64 = 0.8;
 /// Edges that differ by less than this are not a pattern.
 const FLAT: f64 = 1e-3;
+/// Steps that differ by this part of a typical one are equal, whatever the roundings of their texels.
+const EQUAL: f32 = 1e-3;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
@@ -37,8 +39,8 @@ struct Lag {
 }
 
 /// Returns the period of `lines`, which have equal length. Each holds the sizes of its steps, the
-/// seam's last.
-pub fn period(lines: &[Vec<f32>]) -> Option<Period> {
+/// seam's last; roundings of texels change the difference of two by `grain` at most.
+pub fn period(lines: &[Vec<f32>], grain: f32) -> Option<Period> {
     let length = lines.first()?.len();
     let interior = || lines.iter().flat_map(|line| &line[..length - 1]);
     let square: f64 = interior().map(|&e| f64::from(e).powi(2)).sum();
@@ -63,22 +65,25 @@ pub fn period(lines: &[Vec<f32>]) -> Option<Period> {
     (worst <= PERIODIC).then(|| Period {
         texels: best + 1,
         misfit: ((across - worst) / (1.0 - worst)).max(0.0),
-        edge_misfit: edge_misfit(&edges, best + 1),
+        edge_misfit: edge_misfit(lines, &edges, best + 1, grain.max(EQUAL * scale)),
     })
 }
 
-fn edge_misfit(lines: &[Vec<f32>], distance: usize) -> f64 {
+/// `sizes`: of the steps from which `lines` were made. Of the seam, those that differ by `grain` at most are equal.
+fn edge_misfit(sizes: &[Vec<f32>], lines: &[Vec<f32>], distance: usize, grain: f32) -> f64 {
     let (length, seam) = (lines[0].len(), lines[0].len() - 1);
     if seam <= 2 * distance {
         return 0.0;
     }
     // The mismatch between a step and the one a period later.
-    let mismatch = |i: usize| {
-        lines.iter().map(|line| f64::from((line[i] - line[(i + distance) % length]).abs())).sum::<f64>()
+    let mismatch = |i: usize, grain: f32| {
+        let step = |line: &[f32]| (line[i] - line[(i + distance) % length]).abs();
+        let differ = lines.iter().zip(sizes).filter(|(_, sizes)| step(sizes) > grain);
+        differ.map(|(line, _)| f64::from(step(line))).sum::<f64>()
     };
-    let of = |i: usize| mismatch(i - distance).min(mismatch(i));
-    let worst = (distance..seam - distance).map(of).fold(0.0, f64::max);
-    let own = of(seam);
+    let of = |i: usize, grain: f32| mismatch(i - distance, grain).min(mismatch(i, grain));
+    let worst = (distance..seam - distance).map(|i| of(i, 0.0)).fold(0.0, f64::max);
+    let own = of(seam, grain);
     if own > 0.0 { own / worst } else { 0.0 }
 }
 
@@ -109,6 +114,10 @@ fn lag(lines: &[Vec<f32>], distance: usize) -> Lag {
 mod tests {
     use super::*;
 
+    fn period(lines: &[Vec<f32>]) -> Option<Period> {
+        super::period(lines, 0.0)
+    }
+
     fn ring(length: usize, edge: impl Fn(usize) -> f32) -> Vec<Vec<f32>> {
         vec![(0..length).map(edge).collect()]
     }
@@ -135,6 +144,16 @@ mod tests {
         let edge_misfit = |seam| period(&lines(seam)).unwrap().edge_misfit;
         assert_eq!(edge_misfit([1.0, 2.0]), 0.0);
         assert!(edge_misfit([0.0, 0.5]) > 100.0, "every interior edge fits");
+    }
+
+    /// Sizes of the steps of sin(πi/4), of which texels are multiples of 1.
+    #[test]
+    fn a_seam_that_differs_by_a_rounding_fits() {
+        let inside = [71.0, 30.0, 30.0, 70.0, 71.0, 29.0, 29.0, 70.0];
+        let lines = |seam: f32| ring(32, |i| if i == 31 { seam } else { inside[i % 8] });
+        let misfit = |seam| super::period(&lines(seam), 2.0).unwrap().edge_misfit;
+        assert_eq!([70.0, 71.0, 72.0].map(misfit), [0.0; 3]);
+        assert!(misfit(60.0) > 1.5, "no rounding");
     }
 
     #[test]

@@ -68,6 +68,13 @@ impl Rows<'_> {
         (0..wanted).map(of_line).collect()
     }
 
+    /// Returns by how much roundings of integer texels change the difference of two steps of a line.
+    pub fn grain(&self) -> f32 {
+        let codes = self.texture.format.component().codes();
+        // Each step is off by a code at most, in each channel.
+        if codes > 0 { 2.0 * self.texture.file_channels as f32 / (codes - 1) as f32 } else { 0.0 }
+    }
+
     pub fn stored(&self, y: usize) -> Vec<f64> {
         let (t, count) = (self.texture, self.texture.file_channels);
         let mut row = Vec::with_capacity(t.width as usize * count);

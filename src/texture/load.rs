@@ -62,6 +62,7 @@ fn read(source: &TextureSource, values: AllowedFloats) -> Result<Picture> {
             }
             Ok(picture)
         }
+        TextureContent::FirstOf(pictures) => first_of(pictures, source, values),
         TextureContent::Embedded(name, bytes) => read_embedded(name, bytes, reading, space),
         TextureContent::Ramp(colors) => Ok(ramp(colors).into()),
         TextureContent::CubeFile(file, None) if cube::is_whole(file, reading)? => container(file),
@@ -92,6 +93,28 @@ fn read(source: &TextureSource, values: AllowedFloats) -> Result<Picture> {
         }
         TextureContent::Volume(raw) => volume(&raw.file, volume::read(raw)?, raw.size[2]),
     }
+}
+
+/// Reads the first picture that can be read, with a note of why those before it cannot; or says why none can.
+fn first_of(
+    pictures: &[(String, TextureContent)],
+    source: &TextureSource,
+    values: AllowedFloats,
+) -> Result<Picture> {
+    let mut faults: Vec<String> = Vec::new();
+    for (place, content) in pictures {
+        let alone = TextureSource { content: content.clone(), ..source.clone() };
+        match panics::contain(place, || read(&alone, values)) {
+            Ok(mut picture) => {
+                let note = || format!("{place} is read in place of {}", faults.join(" and of "));
+                picture.notes.extend((!faults.is_empty()).then(note));
+                return Ok(picture);
+            }
+            Err(error) if pictures.len() == 1 => return Err(error.within(place)),
+            Err(error) => faults.push(format!("{place}: {error}")),
+        }
+    }
+    Err(Error::new(faults.join("; ")))
 }
 
 /// Returns a volume of so many slices.

@@ -36,6 +36,7 @@ mod read_jpeg;
 mod read_png;
 mod read_tga;
 mod read_webp;
+pub mod room;
 pub mod sampler_spec;
 mod scalar;
 mod sniff;

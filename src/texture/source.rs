@@ -82,6 +82,8 @@ pub enum TextureContent {
     Volume(VolumeSource),
     /// A picture file within another, known by this name.
     Embedded(PathBuf, Arc<[u8]>),
+    /// The first of these pictures that can be read; each with its place in the file that names it.
+    FirstOf(Vec<(String, TextureContent)>),
     /// One picture, not of a file.
     Texels(Arc<PlainTexels>),
     /// No texels; the pattern is evaluated at each lookup.
@@ -174,6 +176,7 @@ impl TextureContent {
             }
             TextureContent::Tiles(set) => set.tiles.iter().map(|tile| tile.file.as_path()).collect(),
             TextureContent::Volume(volume) => vec![&volume.file],
+            TextureContent::FirstOf(pictures) => pictures.iter().flat_map(|(_, own)| own.files()).collect(),
         }
     }
 
@@ -194,6 +197,9 @@ impl TextureContent {
             TextureContent::Cutout { color, opacity } => color.iter_mut().chain([opacity]).collect(),
             TextureContent::Tiles(set) => set.tiles.iter_mut().map(|tile| &mut tile.file).collect(),
             TextureContent::Volume(volume) => vec![&mut volume.file],
+            TextureContent::FirstOf(pictures) => {
+                pictures.iter_mut().flat_map(|(_, own)| own.files_mut()).collect()
+            }
         }
     }
 }

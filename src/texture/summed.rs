@@ -8,6 +8,11 @@ use super::fixed_point::FixedPoint;
 /// Steps of the fixed point over the range of values.
 const STEPS: u32 = 16_777_215;
 
+/// Returns the number of words of a texture's table.
+pub fn words(texture: &TextureData) -> usize {
+    3 + texture.format.channels() * (texture.width as usize + 1) * (texture.height as usize + 1) * 2
+}
+
 /// Returns the device table: smallest value and step (f32 bits), number of channels, then for each
 /// channel `height + 1` rows of `width + 1` sums, low word first.
 pub fn table(texture: &TextureData) -> Vec<u32> {
@@ -17,8 +22,9 @@ pub fn table(texture: &TextureData) -> Vec<u32> {
     let texels = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let values = || texels().flat_map(|(x, y)| (0..channels).map(move |c| value(x, y, c)));
     let fixed = FixedPoint::over(values(), STEPS);
-    let mut words = vec![fixed.least.to_bits(), fixed.step.to_bits(), channels as u32];
-    words.reserve_exact(channels * (width + 1) * (height + 1) * 2);
+    let head = [fixed.least.to_bits(), fixed.step.to_bits(), channels as u32];
+    let mut words = Vec::with_capacity(self::words(texture));
+    words.extend(head);
     for c in 0..channels {
         let mut above = vec![0u64; width + 1];
         for y in 0..=height {
@@ -55,7 +61,7 @@ mod tests {
             stored_levels: Vec::new(),
         };
         let words = table(&texture);
-        assert_eq!(words.len(), 3 + 4 * 3 * 2);
+        assert_eq!([words.len(), super::words(&texture)], [3 + 4 * 3 * 2; 2]);
         let (least, step) = (f32::from_bits(words[0]), f32::from_bits(words[1]));
         let sum = |x: usize, y: usize| {
             let at = 3 + 2 * (y * 4 + x);

@@ -4,6 +4,7 @@
 
 mod limits;
 mod machine;
+mod models;
 mod output;
 mod scene;
 mod texture;

@@ -4,11 +4,14 @@
 mod gltf;
 mod gltf_materials;
 mod instances;
+mod left_out;
 mod libraries;
 mod lists;
 mod mutated;
 mod told;
 mod trees;
+mod whole;
+mod winding;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -239,6 +239,13 @@ fn textures_that_were_made_to_tile_do() {
     ]);
 }
 
+/// Waves of 8 texels, of which roundings make some steps a code longer than others.
+#[test]
+fn whole_periods_of_a_wave_tile_whatever_their_roundings() {
+    let waves = Texture::new((32, 32), |_, y| 0.5 + 100.0 / 255.0 * (y as f64 * TAU / 8.0).sin());
+    check(vec![("four waves", waves.rolled(0, 5), TILES), ("four waves from 0", waves, TILES)]);
+}
+
 /// Wherever the border lies, also on the hardest edge.
 #[test]
 fn rolled_textures_are_never_told_not_to_tile_and_seldom_doubted() {

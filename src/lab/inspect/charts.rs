@@ -1,12 +1,14 @@
-//! The charts of a texture: parts of it that connected triangles share, and the levels on which one texel mixes two of
-//! them. Input: the triangles of a scene that read the texture by their own coordinates. Output: the number of charts, and
-//! for each level the texels that several of them share.
+//! The charts of a texture: parts of it that connected triangles share, and the finest level on which one of them is seen on
+//! another. Input: the triangles of a scene that read the texture by their own coordinates. Output: the number of charts,
+//! and that level.
 
 use std::collections::HashMap;
 
 use glam::DVec2;
 
+use super::chart_grid::{EMPTY, Grid};
 use crate::scene::model::{Mapping, MappingKind, OwnUv, Scene, TextureUse};
+use crate::texture::sampler_spec::Address;
 
 /// More triangles are not looked at.
 const MAX_TRIANGLES: usize = 1 << 20;
@@ -23,23 +25,24 @@ pub struct Charts {
     pub count: usize,
     /// Charts lie over each other: they share texels at every level.
     pub overlap: bool,
-    /// The finest level that was looked at.
-    pub first_level: u32,
-    /// Texels of that level and of each coarser one that several charts share.
-    pub shared: Vec<u64>,
+    /// Where they bleed.
+    pub bleeding: Option<Bleeding>,
+}
+
+/// The finest level on which the linear filter reads, within one chart, texels that show another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bleeding {
+    pub level: u32,
+    /// The number of these texels.
+    pub texels: u64,
 }
 
 impl Charts {
-    /// Returns the finest level on which texels mix charts.
+    /// Returns the finest level on which charts mix.
     pub fn bleeds_from(&self) -> Option<u32> {
-        let at = self.shared.iter().position(|shared| *shared > 0)?;
-        Some(self.first_level + at as u32)
+        self.bleeding.map(|bleeding| bleeding.level)
     }
 }
-
-/// No chart covers the cell, or several do; others have the number of their chart.
-const EMPTY: u32 = u32::MAX;
-const SEVERAL: u32 = u32::MAX - 1;
 
 /// The coordinates of triangles at which a texture is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,13 +107,27 @@ pub fn charts(
     triangles.iter().zip(&numbers).for_each(|(triangle, &chart)| grid.fill(triangle, chart));
     let covered = grid.cells.iter().filter(|cell| **cell != EMPTY).count().max(1);
     let overlap = grid.shared() as f64 / covered as f64 > OVERLAPPING;
-    let mut shared = Vec::new();
-    for _ in first_level..levels.max(first_level + 1) {
-        shared.push(grid.shared());
+    let repeats = repeats(scene, readers);
+    let mut bleeding = None;
+    for level in first_level..levels.max(first_level + 1) {
+        let texels = grid.foreign(&triangles, &numbers, repeats);
+        if texels > 0 {
+            bleeding = Some(Bleeding { level, texels });
+            break;
+        }
         grid = grid.halved();
     }
     let count = numbers.iter().collect::<std::collections::BTreeSet<_>>().len();
-    Some(Charts { count, overlap, first_level, shared })
+    Some(Charts { count, overlap, bleeding })
+}
+
+/// Returns along which axes a sampler of these materials repeats the texture.
+fn repeats(scene: &Scene, readers: &[(usize, Coordinates)]) -> [bool; 2] {
+    let uses = readers.iter().flat_map(|(material, at)| {
+        scene.materials[*material].textures().filter(move |used| Coordinates::of(used) == *at)
+    });
+    let samplers: Vec<_> = uses.filter_map(|used| scene.samplers.get(used.sampler)).collect();
+    [0, 1].map(|axis| samplers.iter().any(|sampler| sampler.address[axis] == Address::Repeat))
 }
 
 /// Returns the texture coordinates at which triangles of these materials read.
@@ -153,69 +170,6 @@ fn connected(triangles: &[[DVec2; 3]]) -> Vec<u32> {
     (0..triangles.len() as u32).map(|number| root(&mut parents, number)).collect()
 }
 
-/// The chart of each texel of a level.
-struct Grid {
-    size: [usize; 2],
-    cells: Vec<u32>,
-}
-
-impl Grid {
-    fn new(size: [usize; 2]) -> Grid {
-        Grid { size, cells: vec![EMPTY; size[0] * size[1]] }
-    }
-
-    fn shared(&self) -> u64 {
-        self.cells.iter().filter(|cell| **cell == SEVERAL).count() as u64
-    }
-
-    fn put(&mut self, x: usize, y: usize, chart: u32) {
-        let cell = &mut self.cells[y * self.size[0] + x];
-        *cell = joined(*cell, chart);
-    }
-
-    /// Marks the texels whose centres lie in the triangle, at least that of its middle.
-    fn fill(&mut self, triangle: &[DVec2; 3], chart: u32) {
-        let size = DVec2::new(self.size[0] as f64, self.size[1] as f64);
-        let [a, b, c] = triangle.map(|uv| uv * size);
-        let last = self.size.map(|n| n as f64 - 1.0);
-        let cell = |at: f64, axis: usize| at.floor().clamp(0.0, last[axis]) as usize;
-        let middle = (a + b + c) / 3.0;
-        self.put(cell(middle.x, 0), cell(middle.y, 1), chart);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let area = (b - a).perp_dot(c - a);
-        for y in cell(low.y, 1)..=cell(high.y, 1) {
-            for x in cell(low.x, 0)..=cell(high.x, 0) {
-                let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                let sides =
-                    [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp_dot(p - from) * area.signum());
-                if sides.iter().all(|side| *side >= 0.0) {
-                    self.put(x, y, chart);
-                }
-            }
-        }
-    }
-
-    /// Returns the next level.
-    fn halved(&self) -> Grid {
-        let mut next = Grid::new(self.size.map(|n| (n / 2).max(1)));
-        for y in 0..self.size[1] {
-            for x in 0..self.size[0] {
-                let [column, row] = [(x / 2).min(next.size[0] - 1), (y / 2).min(next.size[1] - 1)];
-                next.put(column, row, self.cells[y * self.size[0] + x]);
-            }
-        }
-        next
-    }
-}
-
-fn joined(a: u32, b: u32) -> u32 {
-    match (a, b) {
-        (EMPTY, other) | (other, EMPTY) => other,
-        (a, b) if a == b => a,
-        _ => SEVERAL,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,17 +181,5 @@ mod tests {
         let numbers = connected(&[[a, b, c], [e, f, g], [b, d, c]]);
         assert_eq!(numbers[0], numbers[2]);
         assert_ne!(numbers[0], numbers[1]);
-    }
-
-    #[test]
-    fn squares_two_texels_apart_mix_where_a_texel_holds_both() {
-        let mut grid = Grid::new([16, 16]);
-        let square = |x: f64| [DVec2::new(x, 0.0), DVec2::new(x + 0.25, 0.0), DVec2::new(x, 0.5)];
-        // Texels 0 to 3, and 6 to 9.
-        grid.fill(&square(0.0), 1);
-        grid.fill(&square(6.0 / 16.0), 2);
-        let shared: Vec<bool> =
-            std::iter::successors(Some(grid), |g| Some(g.halved())).take(4).map(|g| g.shared() > 0).collect();
-        assert_eq!(shared, [false, false, false, true]);
     }
 }

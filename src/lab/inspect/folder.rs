@@ -9,6 +9,7 @@ use super::legend::Legend;
 use super::page;
 use super::picture::colored;
 use super::survey::{Survey, View, survey};
+use super::uses::name_of;
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::core::layer::Layer;
@@ -87,7 +88,7 @@ fn all_charts(scene: &Scene, survey: &Survey) -> Vec<Option<Charts>> {
 pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection, view: &[String]) -> Result<Vec<String>> {
     let film = &inspection.picture.film;
     let size = [film.width, film.height];
-    let names: Vec<String> = scene.materials.iter().map(|material| material.name.clone()).collect();
+    let names: Vec<String> = (0..scene.materials.len()).map(|number| name_of(scene, number)).collect();
     let colored = |own: &Inspected| colored(own.aov, &own.layer, size, &names);
     let (films, legends): (Vec<Film>, Vec<Legend>) = inspection.layers.iter().map(colored).unzip();
     let mut files: Vec<String> = vec![PICTURE.into(), EXR.into()];

@@ -2,6 +2,7 @@
 //! texels and levels are read, and which settings suit the view.
 
 pub mod advice;
+mod chart_grid;
 mod charts;
 mod colors;
 pub mod density;

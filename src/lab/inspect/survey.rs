@@ -27,7 +27,8 @@ pub const ELONGATED: f64 = 2.0;
 /// Texels that cover more than so many pixels show their outline under `linear`.
 pub const LARGE_TEXEL: f64 = 2.0;
 
-/// How an image is seen. A pixel counts once, by its longest footprint, even if its material reads the image more often.
+/// How an image is seen. A pixel counts once, by its longest footprint, even if its material reads the image more often; what
+/// size the image needs is told by the shortest.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Indices of its textures: an image that is read as colours and as numbers is two of them.
@@ -37,6 +38,8 @@ pub struct View {
     /// By all materials, in their order.
     pub uses: Vec<Use>,
     pub density: Density,
+    /// The same by the shortest footprint of each pixel: the use for which the image has to be largest.
+    pub closest: Density,
     /// Pixels whose footprint covers more than a texel, and those of them that are elongated.
     pub minified: u64,
     pub elongated: u64,
@@ -80,6 +83,8 @@ struct Reading {
     /// A bit for each slot.
     slots: u8,
     major: f64,
+    /// The least `major` of all that the pixel reads.
+    least: f64,
     is_elongated: bool,
     /// A bit for each level.
     levels: u32,
@@ -229,6 +234,7 @@ fn reading(slot: Slot, look_up: &LookUp<'_>) -> Reading {
         material: 0,
         slots: 1 << slot as u8,
         major,
+        least: major,
         is_elongated: major > ELONGATED * minor,
         levels: 1 << low | 1 << high,
     }
@@ -238,6 +244,7 @@ impl Reading {
     fn join(&mut self, other: &Reading) {
         self.slots |= other.slots;
         self.levels |= other.levels;
+        self.least = self.least.min(other.least);
         if other.major > self.major {
             (self.major, self.is_elongated) = (other.major, other.is_elongated);
         }
@@ -264,6 +271,7 @@ fn view(image: &Texture, readings: &[Reading]) -> View {
         levels: image.levels,
         uses: Vec::new(),
         density: Density::new(readings.iter().map(|own| own.major).collect()),
+        closest: Density::new(readings.iter().map(|own| own.least).collect()),
         minified: minified().count() as u64,
         elongated: minified().filter(|own| own.is_elongated).count() as u64,
         level_pixels: (0..image.levels).map(reads).collect(),

@@ -36,6 +36,14 @@ pub(super) fn uses(scene: &Scene, textures: &[usize], pixels: &BTreeMap<(usize, 
     uses
 }
 
+/// Returns the name of a material, or its number from 1 where it has none.
+pub fn name_of(scene: &Scene, number: usize) -> String {
+    match scene.materials[number].name.as_str() {
+        "" => format!("material {}", number + 1),
+        name => name.to_owned(),
+    }
+}
+
 /// Returns the texture that a material reads for something.
 fn use_of(material: &Material, slot: Slot) -> Option<TextureUse> {
     let maps = material.maps();
@@ -68,7 +76,8 @@ impl Use {
             Slot::SpecularTint => "tint of the reflection",
             Slot::Transmission => "transmission",
         };
-        let by = material.map_or(String::new(), |material| format!(" of {}", material.name));
+        let number = self.material.filter(|_| material.is_some());
+        let by = number.map_or(String::new(), |number| format!(" of {}", name_of(scene, number)));
         format!("{slot}{by} ({})", counted(self.pixels as usize, "pixel"))
     }
 }

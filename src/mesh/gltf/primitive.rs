@@ -98,6 +98,10 @@ impl Shape {
         let indices = self.indices.map(|index| accessors.open(index)).transpose()?;
 
         let all = self.triangle_count(accessors)?;
+        let listed = indices.as_ref().unwrap_or(&positions);
+        if self.mode == Mode::Triangles && listed.count % 3 != 0 {
+            notes.add("corners behind the last whole triangle are left out", || listed.place().to_owned());
+        }
         let flat = positions.is_zero() || indices.as_ref().is_some_and(|indices| indices.is_zero());
         let mut triangles = match &indices {
             // Not even the corners of triangles without an area are worth their memory.

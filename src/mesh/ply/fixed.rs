@@ -195,7 +195,8 @@ mod tests {
         let mesh = read_same(&FACES, 3).unwrap();
         let counts = [&mesh.positions.len(), &mesh.normals.len(), &mesh.uvs.len(), &mesh.colors.len()];
         assert_eq!((counts, mesh.triangles.len()), ([&5; 4], 3));
-        assert_eq!(mesh.triangles.get(2).normals, Some([4, 0, 3]));
+        // Its corners are 4, 0, 3, and its normals point backwards.
+        assert_eq!(mesh.triangles.get(2).normals, Some([4, 3, 0]));
         assert!(read_same(&FACES, 2).unwrap_err().contains("more than 2 triangles"));
     }
 

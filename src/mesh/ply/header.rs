@@ -6,6 +6,7 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 
 use super::Fault;
 use super::records::{CORNERS, NUMBERS, Skipped, next_line};
+use crate::core::counted::counted;
 
 /// The header of a file, the pictures that its remarks name, and the bytes that follow.
 pub(super) struct Parts<'a> {
@@ -73,6 +74,13 @@ fn in_words(error: &ParseError, text: &str) -> Fault {
 /// Tells whether an element holds faces or strips of triangles.
 pub(super) fn is_surface(element: &ElementDef) -> bool {
     element.count > 0 && ["face", "tristrips"].contains(&element.name.as_str())
+}
+
+/// Tells of colours of faces.
+pub(super) fn colors_note(element: &ElementDef) -> Option<String> {
+    let has_colors = ["red", "green", "blue"].iter().all(|name| is_number(element, name));
+    let what = "those of vertices are read";
+    has_colors.then(|| format!("left out: colours of {}; {what}", counted(element.count, "face")))
 }
 
 /// Refuses elements that do not hold what a mesh needs.

@@ -44,6 +44,7 @@ pub fn texture(key: Key, source: &TextureSource) -> Check {
         | TextureContent::Cutout { .. }
         | TextureContent::Tiles(_)
         | TextureContent::Embedded(..)
+        | TextureContent::FirstOf(_)
         | TextureContent::CubeFile(..)
         | TextureContent::Faces(_) => {}
     }
@@ -88,7 +89,9 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
         TextureContent::Texels(_) => ("texels", Dimension::Two, "texels are one picture"),
         TextureContent::Cutout { .. } => ("file", Dimension::Two, "such pictures are flat"),
         TextureContent::Tiles(_) => ("file", Dimension::Two, "tiles are those of one flat picture"),
-        TextureContent::Embedded(..) => ("file", Dimension::Two, "an embedded picture is flat"),
+        TextureContent::Embedded(..) | TextureContent::FirstOf(_) => {
+            ("file", Dimension::Two, "an embedded picture is flat")
+        }
         TextureContent::File(_) | TextureContent::Procedural(_) => return Ok(()),
     };
     if source.dimension == implied {

@@ -7,22 +7,19 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 
 use super::gltf::{self, Drawn};
-use super::mtl::Library;
+use super::mesh_materials::{add_materials, tell_missing_coordinates};
 use super::read_file;
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::mesh::gltf::{Material, Model};
-use crate::mesh::mtl::{self, MtlMaterial};
 use crate::mesh::{self, Fault, Mesh, MeshFormat};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry::meshes::{self, Instance, Placement};
-use crate::scene::limits::MAX_TRIANGLES;
+use crate::scene::limits::{MAX_SHAPES, MAX_TRIANGLES};
 use crate::scene::model::{DEFAULT, Light};
 
 /// Most bytes of a mesh file: text of a million triangles takes 100 MB.
 const MAX_BYTES: u64 = 4 << 30;
-/// Most bytes of a library of materials.
-const MAX_LIBRARY_BYTES: u64 = 16 << 20;
 /// Endings of glTF files, in lower case.
 const GLTF: [&str; 2] = ["glb", "gltf"];
 
@@ -59,6 +56,15 @@ impl Usage<'_> {
     fn cause(&self) -> &'static str {
         if self.placement == Placement::IDENTITY { "file" } else { "transform" }
     }
+
+    /// Returns words for what is drawn of a glTF file.
+    fn part(&self) -> String {
+        match (self.node, self.scene) {
+            (Some(name), _) => format!("node {name:?}"),
+            (None, Some(name)) => format!("scene {name:?}"),
+            (None, None) => "its scene".into(),
+        }
+    }
 }
 
 /// A key of a [`Usage`] that does not suit the file, and why.
@@ -94,7 +100,7 @@ fn format_of(ending: &str) -> Option<&'static MeshFormat> {
     mesh::FORMATS.iter().find(|format| format.ending == ending)
 }
 
-fn of_fault(path: &Path, name: &str, fault: &Fault) -> Error {
+pub(super) fn of_fault(path: &Path, name: &str, fault: &Fault) -> Error {
     Error::new(format!("cannot read {} as {name}: {fault}", path.display())).of_kind(ErrorKind::File)
 }
 
@@ -212,6 +218,7 @@ fn instances(
         let other = usage.material.unwrap_or(DEFAULT);
         instances.push(Instance { placement: usage.placement, motion: usage.motion, material_of, other });
     }
+    tell_missing_coordinates(path, mesh, of_file.as_deref().unwrap_or_default(), builder);
     Ok(Ok(instances))
 }
 
@@ -227,19 +234,35 @@ fn add_model(
     let drawn = gltf::drawn(model, usage.scene, usage.node).map_err(|what| (key, what))?;
     model.notes.iter().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     let mut notes = gltf::MaterialNotes::default();
+    // What names no material has the default one of the specification.
     let default = Material { name: "default".into(), ..Material::default() };
     let mut dropped = 0;
     let mut known: HashMap<Option<usize>, usize> = HashMap::new();
-    for Drawn { mut mesh, instances } in gltf::meshes(model, &drawn).map_err(|what| ("file", what))? {
+    let found = |material: Option<usize>| material.map_or(&default, |index| &model.materials[index]);
+    let named = |material: Option<usize>| {
+        let renamed = || usage.materials.iter().find(|(name, _)| *name == found(material).name);
+        material.and_then(|_| renamed()).map(|(_, index)| *index)
+    };
+    if gltf::parts(model, &drawn) > MAX_SHAPES && builder.keep_meshes(false) {
+        builder.note(format!(
+            "{}: too many nodes for shapes of their own; they are not numbered",
+            path.display()
+        ));
+    }
+    let apart = |material| builder.is_kept_whole(usage.material.or(named(material)).unwrap_or(DEFAULT));
+    let parts = gltf::meshes(model, &drawn, apart).map_err(|what| ("file", what))?;
+    if parts.is_empty() && model.degenerate == 0 {
+        builder.note(format!("{}: {} has no triangles", path.display(), usage.part()));
+    }
+    for Drawn { mut mesh, instances } in parts {
         let names_material = usage.material.is_none();
         let instances = instances.into_iter().map(|(placement, material)| {
-            // What names no material has the default one of the specification.
-            let found = material.map_or(&default, |index| &model.materials[index]);
-            let named = usage.materials.iter().find(|(name, _)| material.is_some() && *name == found.name);
-            let material_of = match (known.get(&material), named) {
+            let material_of = match (known.get(&material), named(material)) {
                 _ if usage.material.is_some() => Vec::new(),
-                (_, Some((_, index))) | (Some(index), None) => vec![*index],
+                (_, Some(index)) => vec![index],
+                (Some(index), None) => vec![*index],
                 (None, None) => {
+                    let found = found(material);
                     let index = gltf::add_material(path, model, found, builder, &mut notes);
                     let index = index.map_err(|what| ("file", what))?;
                     known.insert(material, index);
@@ -276,52 +299,4 @@ fn check_names<'a>(
             Err(("material", format!("the file has no material {unknown:?}; it names {has}")))
         }
     }
-}
-
-/// Adds the materials that a mesh names. Returns an index for each name: that of the scene's own or the library's
-/// material, or [`DEFAULT`] where neither defines it.
-fn add_materials(
-    path: &Path,
-    mesh: &Mesh,
-    usage: &Usage<'_>,
-    builder: &mut SceneBuilder,
-) -> Result<Vec<usize>> {
-    let of_scene =
-        |name: &String| usage.materials.iter().find(|(own, _)| own == name).map(|(_, index)| *index);
-    let mut indices: Vec<usize> =
-        mesh.materials.iter().map(|name| of_scene(name).unwrap_or(DEFAULT)).collect();
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut define = |materials: &[MtlMaterial], mut library: Library<'_>| -> Result<()> {
-        for material in materials {
-            let named = mesh.materials.iter().position(|name| *name == material.name);
-            if let Some(place) = named.filter(|&place| indices[place] == DEFAULT) {
-                indices[place] = library.add(material)?;
-            }
-        }
-        Ok(())
-    };
-    define(&mesh.definitions, Library::new(folder, "", path, builder))?;
-    for name in &mesh.libraries {
-        let library = folder.join(name);
-        let bytes = match read_file("library", &["MTL"], &library, MAX_LIBRARY_BYTES) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                builder.note(format!("{}: materials of this library are white: {error}", path.display()));
-                continue;
-            }
-        };
-        builder.source(library.clone());
-        let materials = mtl::read(&bytes).map_err(|fault| of_fault(&library, "MTL", &fault))?;
-        define(&materials, Library::new(folder, name, &library, builder))?;
-    }
-    let names = mesh.materials.iter().zip(&indices);
-    let unknown: Vec<&String> = names.filter(|(_, index)| **index == DEFAULT).map(|(name, _)| name).collect();
-    if let (Some(first), false) = (unknown.first(), mesh.libraries.is_empty()) {
-        let count = unknown.len();
-        builder.note(format!(
-            "{}: {count} of its materials are not defined, the first {first:?}",
-            path.display()
-        ));
-    }
-    Ok(indices)
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use super::Reading;
 use super::mesh_file::{MeshFile, Usage};
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::scene::builder::SceneBuilder;
@@ -23,14 +24,15 @@ const BACKGROUND: f64 = 0.18;
 const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.4, 0.9, 1.0), 2.6), (DVec3::new(0.8, 0.3, -0.6), 1.2)];
 
 /// Reads a mesh file as a scene; with the chosen camera of the file, or its first, and its lights where it has them.
-pub(super) fn read(path: &Path, camera: Option<&str>) -> Result<Scene> {
+pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
     let failed = |what: String| Error::new(format!("{}: {what}", path.display())).of_kind(ErrorKind::Scene);
     // The file decides what the camera sees, but its name belongs to the scene.
     let mut builder = SceneBuilder::new(camera_of([DVec3::ZERO; 2]), SIZE, SIZE);
     builder.path(path);
+    builder.keep_meshes(reading.keeps_meshes);
     let file = MeshFile::open(path, &mut builder)?;
     let unknown = |what| Error::new(format!("--camera: {}: {what}", path.display()));
-    match file.camera(camera).map_err(unknown)? {
+    match file.camera(reading.camera).map_err(unknown)? {
         Some((camera, aspect)) => builder.view(camera, (f64::from(SIZE) * aspect).round() as u32, SIZE),
         None => builder.view(camera_of(file.bounds()), SIZE, SIZE),
     };

@@ -2,8 +2,10 @@
 //! with every reference an index, or the first error. A format reads its bytes into a `SceneBuilder`, which knows all
 //! limits, and reports the position in its file of a value that the builder refuses.
 
+mod foreign;
 mod gltf;
 mod mesh_file;
+mod mesh_materials;
 mod mesh_scene;
 mod mtl;
 mod toml;
@@ -26,7 +28,16 @@ struct Format {
     /// The longest file that is read.
     max_bytes: u64,
     /// Reads a scene from the bytes of the file at this path.
-    read: fn(&Path, Vec<u8>) -> Result<Scene>,
+    read: fn(&Path, Vec<u8>, &Reading<'_>) -> Result<Scene>,
+}
+
+/// How a scene is read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reading<'a> {
+    /// A camera of a glTF file: its number from 0, or its name. Other files have no cameras to choose from.
+    pub camera: Option<&'a str>,
+    /// Meshes, and nodes of glTF files, become shapes of their own, which the layer `instance` numbers.
+    pub keeps_meshes: bool,
 }
 
 /// All formats of scenes; every format of meshes is one of scenes, too. The first one applies to standard input and to
@@ -47,12 +58,17 @@ pub fn is_standard_input(path: &Path) -> bool {
 /// Reads a scene file, or standard input if the path is `-`; paths in it are then relative to the current folder.
 /// Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
-    load_seen_by(path, None)
+    load_as(path, &Reading::default())
 }
 
-/// Reads a scene as [`load`] does, seen by one of the cameras of a glTF file: by its number from 0, or by its name. Other
-/// files have no cameras to choose from.
+/// Reads a scene as [`load`] does, seen by one of the cameras of a glTF file.
 pub fn load_seen_by(path: &Path, camera: Option<&str>) -> Result<Scene> {
+    load_as(path, &Reading { camera, ..Reading::default() })
+}
+
+/// Reads a scene as [`load`] does, in the stated way.
+pub fn load_as(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
+    let camera = reading.camera;
     let is_stdin = is_standard_input(path);
     let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };
     panics::contain(&format_args!("{stage}: reading this scene"), || {
@@ -61,15 +77,21 @@ pub fn load_seen_by(path: &Path, camera: Option<&str>) -> Result<Scene> {
             let [format, ..] = &FORMATS;
             let path = Path::new(STANDARD_INPUT);
             let bytes = bytes_of(std::io::stdin().lock(), 0, SCENE, path, format.max_bytes)?;
-            return (format.read)(path, bytes);
+            foreign::check_beginning(path, &bytes)?;
+            return (format.read)(path, bytes, reading);
         }
         if mesh_file::is_mesh(path) {
-            return mesh_scene::read(path, camera);
+            return mesh_scene::read(path, reading);
         }
         no_camera(&stage, camera)?;
         let format = format_of(path);
         let names: Vec<&str> = FORMATS.iter().map(|format| format.name).chain(mesh_file::names()).collect();
-        (format.read)(path, read_file(SCENE, &names, path, format.max_bytes)?)
+        foreign::check_ending(path)?;
+        let bytes = read_file(SCENE, &names, path, format.max_bytes)?;
+        if !is_named(path, format) {
+            foreign::check_beginning(path, &bytes)?;
+        }
+        (format.read)(path, bytes, reading)
     })
 }
 
@@ -86,9 +108,14 @@ fn no_camera(file: &str, camera: Option<&str>) -> Result<()> {
 }
 
 fn format_of(path: &Path) -> &'static Format {
-    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let [first, ..] = &FORMATS;
-    FORMATS.iter().find(|format| format.endings.contains(&ending.as_str())).unwrap_or(first)
+    FORMATS.iter().find(|format| is_named(path, format)).unwrap_or(first)
+}
+
+/// Returns true if the ending of a file's name is one of the format.
+fn is_named(path: &Path, format: &Format) -> bool {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    format.endings.contains(&ending.as_str())
 }
 
 fn unreadable(kind: &str, path: &Path, what: &str) -> Error {
@@ -100,6 +127,12 @@ fn read_file(kind: &str, formats: &[&str], path: &Path, most: u64) -> Result<Vec
     if path.is_dir() {
         let help = format!("name a {kind} file ({}) in it", formats.join(", "));
         return Err(unreadable(kind, path, "it is a folder").and_help(Some(help)));
+    }
+    // Opening a pipe waits for whoever writes; a scene may come from one.
+    let is_special = || path.metadata().is_ok_and(|known| !known.is_file());
+    if kind != SCENE && is_special() {
+        let help = format!("name a {kind} file ({}) on a disk", formats.join(", "));
+        return Err(unreadable(kind, path, "it is not a regular file").and_help(Some(help)));
     }
     let file = File::open(path).map_err(|error| {
         let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, DVec4, EulerRot, Vec4};
 use rayon::prelude::*;
 
-use crate::mesh::{Mesh, MeshTriangle};
+use crate::core::number::shown_vector;
+use crate::mesh::Mesh;
 use crate::scene::builder::SceneBuilder;
 use crate::scene::limits::{COORDINATE, collinear};
 use crate::scene::model::{self as shapes, DEFAULT, Triangle};
@@ -47,6 +48,11 @@ pub(in crate::scene) struct Instance {
 }
 
 impl Instance {
+    /// Returns the indices in the scene of all materials that triangles may have.
+    fn materials(&self) -> impl Iterator<Item = usize> {
+        self.material_of.iter().copied().chain([self.other])
+    }
+
     /// Returns the index in the scene of a material of the mesh.
     fn material(&self, own: Option<u32>) -> usize {
         let found = own.and_then(|i| self.material_of.get(i as usize)).copied();
@@ -55,7 +61,7 @@ impl Instance {
 }
 
 /// Adds the triangles of a mesh: few one by one, so that beams and cones know their outlines, more as one shape for each
-/// material and instance. `one_sided`: some material is seen from the front only, and no triangle is added one by one, as
+/// material and instance, as are few whose material looks at the shape. `one_sided`: some material is seen from the front only, and no triangle is added one by one, as
 /// trees know sides. Returns how many have no area and were left out, or which instance has a corner beyond the range of
 /// coordinates, and what that becomes.
 pub(in crate::scene) fn add(
@@ -64,7 +70,9 @@ pub(in crate::scene) fn add(
     instances: &[Instance],
     one_sided: bool,
 ) -> Result<usize, (usize, String)> {
-    let is_single = mesh.triangle_count() <= FEW && !mesh.has_attributes() && !one_sided;
+    let is_few = mesh.triangle_count() <= FEW && !mesh.has_attributes() && !one_sided;
+    let worn = |instance: &Instance| instance.materials().any(|material| builder.is_kept_whole(material));
+    let is_single = is_few && !instances.iter().any(worn);
     let placements: Vec<&Placement> = instances.iter().map(|instance| &instance.placement).collect();
     let is_shared = shares(mesh.triangle_count(), &placements);
     let file = Arc::new(mesh);
@@ -177,7 +185,7 @@ fn check_positions(placed: &Placed<'_>, farthest: DVec3) -> Result<(), String> {
         None => Ok(()),
         Some(i) => {
             let position = placed.position(i as u32);
-            Err(format!("position {i} becomes {position}, which is not {}", COORDINATE.words))
+            Err(format!("position {i} becomes {}, which is not {}", shown_vector(position), COORDINATE.words))
         }
     }
 }
@@ -227,7 +235,7 @@ impl Placed<'_> {
     /// Returns a triangle that lies still and has the default material.
     pub fn triangle(&self, index: u32) -> Triangle {
         let found = self.mesh.triangles.get(index as usize);
-        let found = if self.mirrors { reversed(&found) } else { found };
+        let found = if self.mirrors { found.reversed() } else { found };
         let flat = Triangle::new(self.corners(found.positions));
         let own = found.normals.map(|indices| indices.map(|i| self.normal(i)));
         Triangle {
@@ -292,16 +300,6 @@ pub(in crate::scene) fn normal_matrix(matrix: &DMat3) -> DMat3 {
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
     if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
-}
-
-fn reversed(triangle: &MeshTriangle) -> MeshTriangle {
-    let swap = |[a, b, c]: [u32; 3]| [a, c, b];
-    MeshTriangle {
-        positions: swap(triangle.positions),
-        uvs: triangle.uvs.map(swap),
-        normals: triangle.normals.map(swap),
-        ..*triangle
-    }
 }
 
 #[cfg(test)]

@@ -7,15 +7,26 @@ use base64::Engine as _;
 use moire::internal::scene::load as load_scene;
 use moire::internal::scene::model::Scene;
 use moire::internal::texture::data::{ColorSpace, Dimension};
-use moire::internal::texture::load::load;
+use moire::internal::texture::decode::AllowedFloats;
+use moire::internal::texture::load::{load, load_with_notes};
 use moire::internal::texture::source::{ReadOptions, TextureContent};
-use tempfile::tempdir;
+use tempfile::{TempDir, tempdir};
 
 use super::write::{DXGI_RGBA8, Dds, Ktx2, VK_RGBA8};
-use crate::support::{data, texture_source};
+use crate::support::{data, texture_source, told};
 
-/// The scene of one triangle with a base colour of these images.
+/// The scene of one triangle with a base colour of these images, whose first texel is known.
 fn scene(images: &str, texture: &str, files: &[(&str, Vec<u8>)]) -> Scene {
+    let folder = stored(images, texture, files);
+    let scene = load_scene(&folder.path().join("m.gltf")).unwrap();
+    let texture = load(&scene.textures[0]).unwrap();
+    assert_eq!(texture.color_space, ColorSpace::Srgb, "the slot says what values mean");
+    assert_eq!(&texture.texels[..4], &[7, 8, 9, 255], "{images}");
+    scene
+}
+
+/// A folder with these files and m.gltf, one triangle with a base colour of these images.
+fn stored(images: &str, texture: &str, files: &[(&str, Vec<u8>)]) -> TempDir {
     let folder = tempdir().unwrap();
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).unwrap();
@@ -34,13 +45,8 @@ fn scene(images: &str, texture: &str, files: &[(&str, Vec<u8>)]) -> Scene {
          \"min\":[0,0,0],\"max\":[1,1,0]}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\
          \"buffers\":[{{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,{buffer}\"}}]}}"
     );
-    let path = folder.path().join("m.gltf");
-    fs::write(&path, text).unwrap();
-    let scene = load_scene(&path).unwrap();
-    let texture = load(&scene.textures[0]).unwrap();
-    assert_eq!(texture.color_space, ColorSpace::Srgb, "the slot says what values mean");
-    assert_eq!(&texture.texels[..4], &[7, 8, 9, 255], "{images}");
-    scene
+    fs::write(folder.path().join("m.gltf"), text).unwrap();
+    folder
 }
 
 fn ktx2() -> Vec<u8> {
@@ -83,6 +89,38 @@ fn the_format_of_an_extension_comes_first_and_the_picture_where_it_cannot_be_rea
     scene(images, both, &[("a.dds", dds())]);
     let unreadable = "{\"source\":0,\"extensions\":{\"KHR_texture_basisu\":{\"source\":2}}}";
     scene(images, unreadable, &[("a.png", picture())]);
+}
+
+/// One texel in a format that is not read, and the first half of a file of one that is.
+fn undecodable() -> [Vec<u8>; 2] {
+    const VK_ASTC_4X4: u32 = 157;
+    let whole = ktx2();
+    [Ktx2::flat(VK_ASTC_4X4, [1, 1], &[vec![0; 16]]).bytes(), whole[..whole.len() - 2].to_vec()]
+}
+
+#[test]
+fn a_picture_that_cannot_be_decoded_gives_way_to_the_one_beside_it() {
+    let mut png = Vec::new();
+    image::RgbaImage::from_pixel(1, 1, image::Rgba([7, 8, 9, 255]))
+        .write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png)
+        .unwrap();
+    let images = "[{\"uri\":\"a.png\"},{\"uri\":\"a.ktx2\"}]";
+    let both = "{\"source\":0,\"extensions\":{\"KHR_texture_basisu\":{\"source\":1}}}";
+    let alone = "{\"extensions\":{\"KHR_texture_basisu\":{\"source\":1}}}";
+    for bytes in undecodable() {
+        let folder = stored(images, both, &[("a.png", png.clone()), ("a.ktx2", bytes.clone())]);
+        let scene = load_scene(&folder.path().join("m.gltf")).unwrap();
+        let (texture, notes) = load_with_notes(&scene.textures[0], AllowedFloats::Finite).unwrap();
+        assert_eq!(&texture.texels[..4], &[7, 8, 9, 255]);
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        for word in ["/images/0/uri is read in place of /images/1/uri: ", "a.ktx2: "] {
+            assert!(notes[0].contains(word), "{notes:?}");
+        }
+        let folder = stored(images, alone, &[("a.ktx2", bytes)]);
+        let scene = load_scene(&folder.path().join("m.gltf")).unwrap();
+        let said = told(load(&scene.textures[0]));
+        assert!(said.contains("/images/1/uri: ") && said.contains("a.ktx2"), "{said}");
+    }
 }
 
 #[test]

@@ -76,9 +76,34 @@ fn charts_four_texels_apart_bleed_where_a_texel_reaches_over_the_gap() {
     with_scene(&two_charts(4.0 / 64.0), |scene| {
         let found = charts_of(&scene).unwrap();
         assert_eq!((found.count, found.overlap), (2, false));
-        // Columns 0 to 15 and 20 to 35: a texel of 8 columns holds 16 to 23, one of 16 holds 16 to 31, one of 32 both.
-        assert_eq!(found.bleeds_from(), Some(5));
+        // Columns 0 to 15 and 20 to 35: of texels of 4 columns the linear filter reads the empty 16 to 19 beside the first
+        // chart, of 8 those from 16 to 23.
+        assert_eq!(found.bleeds_from(), Some(3));
     });
+}
+
+#[test]
+fn charts_that_meet_at_half_of_the_texture_bleed_where_the_filter_reaches_over() {
+    let apart =
+        two_charts(0.25).replace("[0.5, 0], [0.5, 1], [0.75, 0]", "[0.53125, 0], [0.53125, 1], [0.9375, 0]");
+    let meeting = apart.replace("[0, 0], [0, 1], [0.25, 0]", "[0.0625, 0], [0.0625, 1], [0.46875, 0]");
+    // Columns 4 to 29 and 34 to 59: no texel but the last one holds both.
+    with_scene(&meeting, |scene| assert_eq!(charts_of(&scene).unwrap().bleeds_from(), Some(3)));
+}
+
+#[test]
+fn charts_at_opposite_edges_bleed_where_the_texture_repeats() {
+    let edges = two_charts(0.25).replace("[0.5, 0], [0.5, 1], [0.75, 0]", "[1.0, 0], [1.0, 1], [0.75, 0]");
+    let edges = edges.replace("[0, 0], [0, 1], [0.25, 0]", "[0.0, 0], [0.0, 1], [0.25, 0]");
+    let bleeds = |address: &str| {
+        let scene = edges.replace("[[sampler]]", &format!("[[sampler]]\naddress = '{address}'"));
+        let mut found = None;
+        with_scene(&scene, |scene| found = charts_of(&scene).unwrap().bleeds_from());
+        found
+    };
+    assert_eq!(bleeds("repeat"), Some(0));
+    // Columns 0 to 15 and 48 to 63 end at the centres of texels of 32 columns.
+    assert_eq!(bleeds("clamp-to-edge"), Some(6));
 }
 
 #[test]

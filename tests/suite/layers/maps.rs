@@ -196,3 +196,29 @@ fn textures_of_models_have_the_name_of_the_file_or_of_the_image() {
         assert_eq!(loaded(&path).textures[0].name, name);
     }
 }
+
+#[test]
+fn the_size_that_an_image_needs_is_that_of_the_use_that_magnifies_most() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = fs::read_to_string(data().join("gallery/normal_map.gltf")).unwrap();
+    let mut model: serde_json::Value = serde_json::from_str(&model).unwrap();
+    model["materials"][0]["emissiveFactor"] = serde_json::json!([1, 1, 1]);
+    model["materials"][0]["emissiveTexture"] = serde_json::json!({ "index": 0, "extensions": { "KHR_texture_transform": { "scale": [0.25, 0.25] } } });
+    let path = folder.path().join("m.gltf");
+    fs::write(&path, model.to_string()).unwrap();
+    let found = surveyed(&loaded(&path));
+    let view =
+        found.views.iter().find(|view| view.uses.iter().any(|own| own.slot == Slot::Emission)).unwrap();
+    assert!(view.uses.len() > 1, "{:?}", view.uses);
+    let [all, closest] = [&view.density, &view.closest].map(|density| density.quantile(0.5).unwrap());
+    assert!((all / closest - 4.0).abs() < 1e-6, "{all} and {closest}");
+}
+
+#[test]
+fn a_material_without_a_name_has_its_number() {
+    with_maps("", "texture = 't'", |mut scene| {
+        scene.materials[0].name = String::new();
+        let words = surveyed(&scene).views[0].uses[0].words(&scene);
+        assert_eq!(words, "colour of material 1 (256 pixels)");
+    });
+}

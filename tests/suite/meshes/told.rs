@@ -14,7 +14,7 @@ use crate::stage::packed;
 use crate::support::{moire, told};
 
 /// A triangle in a material without a name, with a camera and a light, as values to change.
-fn document() -> Value {
+pub(super) fn document() -> Value {
     let corners: Vec<u8> =
         [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
     let bytes = base64::Engine::encode(&base64::prelude::BASE64_STANDARD, &corners);
@@ -51,7 +51,7 @@ fn with_images(images: Value, texture: Value) -> Value {
     document
 }
 
-fn stored(document: &Value) -> TempDir {
+pub(super) fn stored(document: &Value) -> TempDir {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("m.gltf"), document.to_string()).unwrap();
     folder
@@ -61,7 +61,7 @@ fn refused(document: &Value) -> String {
     told(load(&stored(document).path().join("m.gltf")))
 }
 
-fn notes(document: &Value) -> String {
+pub(super) fn notes(document: &Value) -> String {
     load(&stored(document).path().join("m.gltf")).unwrap().notes.join("\n")
 }
 

@@ -1,8 +1,9 @@
 //! The section of textures: what each image is read for, how densely it is seen, which levels and texels are read, and
 //! whether its charts mix. Input: a scene, and the inspection. Output: markup.
 
+use crate::core::counted::{counted, verb};
 use crate::lab::inspect::advice::percent;
-use crate::lab::inspect::charts::Charts;
+use crate::lab::inspect::charts::{Bleeding, Charts};
 use crate::lab::inspect::density::CLOSEST;
 use crate::lab::inspect::folder::Inspection;
 use crate::lab::inspect::scale::short;
@@ -82,7 +83,8 @@ fn share_of(part: u64, all: u64) -> String {
 
 /// Returns whether the texture is larger or smaller than the view needs.
 fn needs(view: &View) -> String {
-    let density = &view.density;
+    // Whatever else a pixel reads there: the use that magnifies most has to have enough texels.
+    let density = &view.closest;
     let wanted = density.wanted(view.size);
     let [width, height] =
         view.size.map(|n| (f64::from(n) * f64::from(wanted.octaves).exp2()).round().max(1.0));
@@ -94,7 +96,7 @@ fn needs(view: &View) -> String {
          pixels cover {} texels or more.",
         percent(density.below(1.0)),
         percent(large),
-        percent(density.above(1.0)),
+        percent(view.density.above(1.0)),
         short(density.quantile(0.5).unwrap_or(0.0))
     );
     let size = if wanted.octaves < 0 {
@@ -146,21 +148,23 @@ fn bleeding(charts: &Charts, view: &View) -> Option<String> {
     if charts.overlap {
         return Some(format!("Its {count} charts lie over each other, so they share texels at every level."));
     }
-    let Some(level) = charts.bleeds_from() else {
+    let Some(Bleeding { level, texels }) = charts.bleeding else {
         return Some(format!("Its {count} charts mix on none of its levels."));
     };
-    let shared = charts.shared[(level - charts.first_level) as usize];
     let readers: u64 = view.level_pixels.iter().skip(level as usize).sum();
     let so = if readers > 0 {
         format!(
-            "{readers} look-ups of this view read such a level: leave more room between charts, or read no more than \
-             {level} levels"
+            "{} of this view {} such a level: leave more room between charts, or read no more than {}",
+            counted(readers, "look-up"),
+            verb(readers, "reads", "read"),
+            counted(level.max(1), "level")
         )
     } else {
         "this view reads none of these levels".to_owned()
     };
     Some(format!(
-        "Its {count} charts bleed from level {level} on, where {shared} texels hold two or more; {so}."
+        "Its {count} charts bleed from level {level} on, where the linear filter reads {} of another chart; {so}.",
+        counted(texels, "texel")
     ))
 }
 

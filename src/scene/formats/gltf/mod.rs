@@ -131,8 +131,20 @@ impl Look<'_> {
 }
 
 /// Returns the drawn primitives: those of one material as one mesh, but for those that stand in so many places that
-/// their triangles are better held once. Says why if they are too many.
-pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Result<Vec<Drawn>, String> {
+/// their triangles are better held once. Those of a material that is kept `apart` are a mesh for each node. Says why if they
+/// are too many.
+pub(super) fn meshes(
+    model: &Model,
+    drawn: &[bool],
+    apart: impl Fn(Option<usize>) -> bool,
+) -> Result<Vec<Drawn>, String> {
+    let part = |instance: &Instance| (instance.material, apart(instance.material).then_some(instance.node));
+    let mut primitives_of: HashMap<(Option<usize>, Option<usize>), usize> = HashMap::new();
+    for instance in instances(model, drawn).filter(|instance| apart(instance.material)) {
+        *primitives_of.entry(part(instance)).or_default() += 1;
+    }
+    // Whose node has more of the same material is a part of a mesh.
+    let is_whole = |instance: &Instance| primitives_of.get(&part(instance)).is_none_or(|&count| count == 1);
     let mut looks: Vec<(Look, Vec<&Instance>)> = Vec::new();
     let mut of_primitive: HashMap<usize, Vec<usize>> = HashMap::new();
     let mut known: HashMap<(usize, Option<usize>), usize> = HashMap::new();
@@ -153,6 +165,7 @@ pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Result<Vec<Drawn>, String
         .map(|(look, instances)| {
             let placements: Vec<&DAffine3> = instances.iter().map(|instance| &instance.matrix).collect();
             shares(model.primitives[look.primitive].faces().count(), &placements)
+                && instances.iter().all(|instance| is_whole(instance))
         })
         .collect();
     let copied = instances(model, drawn).filter(|i| !is_shared[known[&(i.primitive, i.material)]]);
@@ -161,13 +174,13 @@ pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Result<Vec<Drawn>, String
         return Err(format!("{count} triangles in all places; a scene may have {MAX_TRIANGLES} at most"));
     }
     let mut meshes: Vec<Drawn> = Vec::new();
-    let mut of_material: HashMap<Option<usize>, usize> = HashMap::new();
+    let mut of_part: HashMap<(Option<usize>, Option<usize>), usize> = HashMap::new();
     for instance in instances(model, drawn) {
         let Instance { primitive, material, .. } = *instance;
         if is_shared[known[&(primitive, material)]] {
             continue;
         }
-        let place = *of_material.entry(material).or_insert_with(|| {
+        let place = *of_part.entry(part(instance)).or_insert_with(|| {
             meshes.push(Drawn { mesh: Mesh::default(), instances: vec![(DAffine3::IDENTITY, material)] });
             meshes.len() - 1
         });
@@ -185,6 +198,11 @@ pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Result<Vec<Drawn>, String
         meshes.push(Drawn { mesh, instances });
     }
     Ok(meshes)
+}
+
+/// Returns the number of places where something is drawn.
+pub(super) fn parts(model: &Model, drawn: &[bool]) -> usize {
+    instances(model, drawn).count()
 }
 
 fn instances<'a>(model: &'a Model, drawn: &'a [bool]) -> impl Iterator<Item = &'a Instance> {

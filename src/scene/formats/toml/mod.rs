@@ -20,7 +20,7 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
-use super::Format;
+use super::{Format, Reading};
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry;
@@ -41,7 +41,7 @@ const SECTIONS: &[&str] =
 pub(super) const FORMAT: Format = Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read };
 
 /// Reads a scene; paths in the file are relative to the folder of `path`.
-fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
+fn read(path: &Path, bytes: Vec<u8>, reading: &Reading<'_>) -> Result<Scene> {
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..valid].iter().filter(|&&byte| byte == b'\n').count() + 1;
@@ -53,17 +53,21 @@ fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
         Error::with_help(message, "scene files are TOML text: save the file as UTF-8")
             .of_kind(ErrorKind::File)
     })?;
-    parse(path, &text)
+    parse_as(path, &text, reading)
 }
 
 /// Parses scene text; paths in it are relative to the folder of `path_for_messages`.
 pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
+    parse_as(path_for_messages, text, &Reading::default())
+}
+
+fn parse_as(path_for_messages: &Path, text: &str, reading: &Reading<'_>) -> Result<Scene> {
     let source = Source { path: path_for_messages, text };
     let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
     let shapes: Vec<&str> = geometry::sections().map(|kind| kind.name).collect();
     let sections = [SECTIONS, &shapes].concat();
     let root = Table::root(source, document.get_ref(), &sections)?;
-    assemble(path_for_messages, &root)
+    assemble(path_for_messages, &root, reading)
 }
 
 fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
@@ -87,13 +91,14 @@ fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
     told
 }
 
-fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
+fn assemble(path: &Path, root: &Table<'_>, reading: &Reading<'_>) -> Result<Scene> {
     const CAMERA_NEEDS: &str = "eye, look_at and one of vertical_fov, camera_constant, orthographic_height";
     let camera = sections::camera(&root.required_single("camera", sections::CAMERA, CAMERA_NEEDS)?)?;
     let image = root.required_single("image", sections::IMAGE, "width and height")?;
     let (width, height) = sections::image(&image)?;
     let mut builder = SceneBuilder::new(camera, width, height);
     builder.path(path);
+    builder.keep_meshes(reading.keeps_meshes);
     builder.pixel_filter(sections::pixel_filter(&image)?);
     builder.sampling(sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?);
     let materials = surfaces(path, root, &mut builder)?;
