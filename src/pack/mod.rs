@@ -22,6 +22,7 @@ mod sections;
 mod stored_levels;
 mod texel_format;
 mod texture_lines;
+mod texture_readers;
 mod textures;
 mod tile_culling;
 

@@ -1,7 +1,8 @@
 //! Textures with texels that are NaN or infinite and were accepted on purpose: counts them, and checks that
 //! all readers confine them to the pixels that show them. Other readers are refused, with an alternative.
 
-use super::textures::{readers, reads};
+use super::texture_readers::readers;
+use super::textures::reads;
 use super::{PackedScene, TextureKind, textures};
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};

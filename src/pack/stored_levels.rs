@@ -1,7 +1,7 @@
 //! Decides whether the levels of a texture are those that its file stores. Input: the scene, a texture, and its texels.
 //! Output: how its levels are made, or an error where the file has no levels or the samplers disagree.
 
-use super::textures::readers;
+use super::texture_readers::readers;
 use crate::core::error::{Error, Result};
 use crate::scene::model::Scene;
 use crate::texture::data::{Dimension, MipKernel, TextureData};

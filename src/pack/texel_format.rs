@@ -1,7 +1,7 @@
 //! The format in which the texels of a texture are packed, where it is not that of its file: grey for colours that are all
 //! grey, floats for an encoding that drivers do not decode. Input: a texture. Output: the same in its format.
 
-use super::textures::readers;
+use super::texture_readers::readers;
 use crate::core::error::Result;
 use crate::scene::model::Scene;
 use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};

@@ -12,6 +12,7 @@ use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 use crate::texture::{mips, prefix_sums, summed};
 
 use super::texel_format::{linear_floats, needs_linear_floats, without_equal_channels};
+use super::texture_readers::readers;
 use super::{MipPlacement, PackedScene, TextureKind, stored_levels};
 
 /// One image descriptor: a texture and its sampler. Look-ups of method shader fetch texels and ignore the sampler, so
@@ -162,13 +163,6 @@ pub(super) fn reads(
     such: impl Fn(&SamplerSpec) -> bool,
 ) -> bool {
     packed.header.footprint != Footprint::None && readers(scene, texture).any(such)
-}
-
-/// Returns the samplers that read this texture.
-pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &SamplerSpec> {
-    let read = scene.materials.iter().flat_map(|m| m.textures()).filter(move |used| used.texture == texture);
-    let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
-    read.map(|used| used.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
 }
 
 /// Returns the texture's first word, which is the offset of level 0. The words before it are the offsets of the other

@@ -31,7 +31,6 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["render.layer_samples", "render.layers"], "layers, and the samples that some of them count"),
     (&["lab.inspect"], "the page of a folder"),
     (&["output.encode", "output.exr"], "a picture's encoders, and what they are told"),
-    (&["pack.stored_levels", "pack.textures"], "which levels a texture has"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
 ];
 

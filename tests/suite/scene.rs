@@ -293,7 +293,7 @@ fn every_key_listed_as_allowed_is_read() {
         ("[[texture]]\nname = 'x'\nfile = 'x'\n", 25),
         ("[[texture]]\nname = 'x'\n[texture.volume]\nfile = 'x'\nsize = [1, 1, 1]\nformat = 'grey8'\n", 5),
         ("[[sampler]]\nname = 'x'\n", 9),
-        ("[[material]]\nname = 'x'\n", 28),
+        ("[[material]]\nname = 'x'\n", 30),
         ("[sampling]\n", 8),
         ("[background]\n", 6),
         ("[image]\nwidth = 1\nheight = 1\n", 4),

@@ -8,11 +8,11 @@ use glam::DVec3;
 
 use super::gltf::{self, Drawn};
 use super::mesh_materials::{add_materials, tell_missing_coordinates};
-use super::read_file;
+use super::{of_fault, read_file};
 use crate::core::counted::{counted, verb};
-use crate::core::error::{Error, ErrorKind, Result};
+use crate::core::error::Result;
 use crate::mesh::gltf::{Material, Model};
-use crate::mesh::{self, Fault, Mesh, MeshFormat};
+use crate::mesh::{self, Mesh, MeshFormat};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry::meshes::{self, Instance, Placement};
 use crate::scene::limits::{MAX_SHAPES, MAX_TRIANGLES};
@@ -98,10 +98,6 @@ fn ending_of(path: &Path) -> String {
 
 fn format_of(ending: &str) -> Option<&'static MeshFormat> {
     mesh::FORMATS.iter().find(|format| format.ending == ending)
-}
-
-pub(super) fn of_fault(path: &Path, name: &str, fault: &Fault) -> Error {
-    Error::new(format!("cannot read {} as {name}: {fault}", path.display())).of_kind(ErrorKind::File)
 }
 
 impl MeshFile {
@@ -210,7 +206,7 @@ fn instances(
         let material_of = match (&of_file, usage.material) {
             (_, Some(_)) => Vec::new(),
             (Some(known), None) if usage.materials.is_empty() => known.clone(),
-            _ => add_materials(path, mesh, usage, builder)?,
+            _ => add_materials(path, mesh, &usage.materials, builder)?,
         };
         if usage.material.is_none() && usage.materials.is_empty() {
             of_file = Some(material_of.clone());

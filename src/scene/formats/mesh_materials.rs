@@ -4,9 +4,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::mesh_file::{Usage, of_fault};
 use super::mtl::Library;
-use super::read_file;
+use super::{of_fault, read_file};
 use crate::core::counted::{counted, verb};
 use crate::core::error::Result;
 use crate::mesh::Mesh;
@@ -17,16 +16,15 @@ use crate::scene::model::DEFAULT;
 /// Most bytes of a library of materials.
 const MAX_LIBRARY_BYTES: u64 = 16 << 20;
 
-/// Adds the materials that a mesh names. Returns an index for each name: that of the scene's own or the library's
+/// Adds the materials that a mesh names; `own` are those of the scene in place of some. Returns an index for each name: that of the scene's own or the library's
 /// material, or [`DEFAULT`] where neither defines it.
 pub(super) fn add_materials(
     path: &Path,
     mesh: &Mesh,
-    usage: &Usage<'_>,
+    own: &[(String, usize)],
     builder: &mut SceneBuilder,
 ) -> Result<Vec<usize>> {
-    let of_scene: HashMap<&str, usize> =
-        usage.materials.iter().map(|(name, index)| (name.as_str(), *index)).collect();
+    let of_scene: HashMap<&str, usize> = own.iter().map(|(name, index)| (name.as_str(), *index)).collect();
     let of_scene = |name: &String| of_scene.get(name.as_str()).copied();
     let mut indices: Vec<usize> =
         mesh.materials.iter().map(|name| of_scene(name).unwrap_or(DEFAULT)).collect();

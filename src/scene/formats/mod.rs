@@ -17,6 +17,7 @@ use std::path::Path;
 use super::model::Scene;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
+use crate::mesh::Fault;
 use crate::texture::open_file::odd_path;
 pub use toml::parse;
 
@@ -120,6 +121,11 @@ fn is_named(path: &Path, format: &Format) -> bool {
 
 fn unreadable(kind: &str, path: &Path, what: &str) -> Error {
     Error::new(format!("cannot read {kind} {}: {what}", path.display())).of_kind(ErrorKind::File)
+}
+
+/// Returns the error of a model that is not what its ending says.
+fn of_fault(path: &Path, name: &str, fault: &Fault) -> Error {
+    Error::new(format!("cannot read {} as {name}: {fault}", path.display())).of_kind(ErrorKind::File)
 }
 
 /// Returns the bytes of a file, of which there are at most `most`; `formats` names those that its kind may have.
