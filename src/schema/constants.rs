@@ -79,8 +79,9 @@ constants! {
     /// In the fourth component of a pixel's sum, which is zero without a pixel filter's negative lobes: its samples are left
     /// to a later pass.
     UNFINISHED: f64 = -1.0;
-    /// Nodes of a mesh's tree that are opened for one cell.
-    MAX_CELL_NODES: u32 = 4096;
+    /// Nodes of a mesh's tree that are opened for one cell: with what else a cell's thread repeats, fewer than Mesa's CPU driver
+    /// lets all loops of an invocation turn (65 535). For the shades of the cell there are half as many.
+    MAX_CELL_NODES: u32 = 2048;
     /// Cells of a block, which follow each other where subgroups are short.
     CELL_BLOCK_WIDTH: u32 = 4;
     CELL_BLOCK_HEIGHT: u32 = 2;

@@ -52,7 +52,7 @@ const uint SHADE_ROOM = HOLDS_TRIANGLES ? 768u : 96u;
 uint above[SHADE_ROOM];
 
 // Nodes that wait, from the beginning on, and leaves above the parts, from the end on.
-const uint NODE_ROOM = HOLDS_TRIANGLES ? 1024u : 256u;
+const uint NODE_ROOM = HOLDS_TRIANGLES ? 768u : 256u;
 uint room[NODE_ROOM];
 
 // Finds the leaves above the parts. Returns their number, NODE_ROOM if there are too many.
@@ -60,7 +60,7 @@ uint leaves_above() {
     uint height = 0u;
     uint leaves = 0u;
     uint reference = 0u;
-    for (uint opened = 0u; opened < MAX_CELL_NODES; opened++) {
+    for (uint opened = 0u; opened < MAX_CELL_NODES / 2u; opened++) {
         for (uint k = 0u; k < TREE_WIDTH; k++) {
             uvec4 least = mesh_texel(reference + 2u * k);
             uvec4 greatest = mesh_texel(reference + 2u * k + 1u);
