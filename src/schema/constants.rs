@@ -57,6 +57,11 @@ constants! {
     /// has, and the largest coordinate of what is seen; then for each its texel and a bit for each triangle of the cell's
     /// list, set if it may shade that. There is room for `SHADE_WORDS` words on average. Where more than `MAX_SHADE_PAIRS` of
     /// two triangles would have to be tested, each may shade all.
+    SHADES_LEAST: u32 = 0;
+    SHADES_GREATEST: u32 = 3;
+    SHADES_COUNT: u32 = 6;
+    SHADES_BITS: u32 = 7;
+    SHADES_REACH: u32 = 8;
     SHADES_HEAD: u32 = 9;
     SHADE_WORDS: u32 = 48;
     MAX_SHADE_PAIRS: u32 = 4096;

@@ -65,6 +65,9 @@ Receiver receiver_of(bool is_there, vec3 a, vec3 b, vec3 c) {
     return Receiver(is_there && dot3(n, shade_frame[2]) > 0.0, a, b, c, n, slack_of(b - a, c - a, area));
 }
 
+// The triangle whose corners begin at a texel.
+Receiver receiver_at(uint at) { return receiver_of(true, point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u))); }
+
 float reach_of(const Receiver receiver) {
     vec3 reach = max(max(abs(receiver.a), abs(receiver.b)), abs(receiver.c));
     return max(max(reach.x, reach.y), reach.z);

@@ -109,8 +109,8 @@ uint shade_words(const Header header, uint count) {
     uint end = uint(found.length());
     if (end < behind + 2u) return NO_LIST;
     uint taken = atomicAdd(found[behind + 1u], count);
-    uint room = end > words ? end - words : 0u;
-    return taken <= room && count <= room - taken ? words + taken : NO_LIST;
+    uint most = end > words ? end - words : 0u;
+    return taken <= most && count <= most - taken ? words + taken : NO_LIST;
 }
 
 // Words of bits for the triangles of a cell's list; none if there are too many pairs to test, or where pixels test them.
@@ -136,8 +136,7 @@ uint choose_shades(const Survey survey, uint count, float reach) {
             uint bits = 0u;
             uint last = min(survey.count, 32u * word + 32u);
             for (uint r = 32u * word; r < last; r++) {
-                uint seen = found[listed_at(survey, r)];
-                Receiver receiver = receiver_of(true, point_in(mesh_texel(seen)), point_in(mesh_texel(seen + 1u)), point_in(mesh_texel(seen + 2u)));
+                Receiver receiver = receiver_at(found[listed_at(survey, r)]);
                 bits |= leaves_lit(a, b, c, receiver, reach) ? 0u : 1u << (r & 31u);
             }
             room[end + 1u + word] = bits;
@@ -155,11 +154,7 @@ void survey_shades(const Header header, const PixelFrustum frame, const Survey s
     vec3 y = 0.5 * frame.rays[1];
     vec3 way = frame.rays[2] + (x + y);
     for (uint k = 0u; k < REGION_PARTS; k++) region_parts[k] = EMPTY_REGION;
-    for (uint k = 0u; k < survey.count; k++) {
-        uint at = found[listed_at(survey, k)];
-        Receiver receiver = receiver_of(true, point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)));
-        add_to_parts(region_of(receiver, way, x, y));
-    }
+    for (uint k = 0u; k < survey.count; k++) add_to_parts(region_of(receiver_at(found[listed_at(survey, k)]), way, x, y));
     ShadeRegion region = EMPTY_REGION;
     for (uint k = 0u; k < REGION_PARTS; k++) {
         region_parts[k] = widened(region_parts[k]);
@@ -177,13 +172,13 @@ void survey_shades(const Header header, const PixelFrustum frame, const Survey s
     found[survey.cell + CELL_SHADES] = first;
     if (first == NO_LIST || first == NO_SHADES) return;
     for (uint k = 0u; k < 3u; k++) {
-        found[first + k] = floatBitsToUint(region.least[k]);
-        found[first + 3u + k] = floatBitsToUint(region.greatest[k]);
+        found[first + SHADES_LEAST + k] = floatBitsToUint(region.least[k]);
+        found[first + SHADES_GREATEST + k] = floatBitsToUint(region.greatest[k]);
     }
     uint bits = bit_words(survey, count);
-    found[first + 6u] = words / (1u + bits);
-    found[first + 7u] = bits;
-    found[first + 8u] = floatBitsToUint(region.reach);
+    found[first + SHADES_COUNT] = words / (1u + bits);
+    found[first + SHADES_BITS] = bits;
+    found[first + SHADES_REACH] = floatBitsToUint(region.reach);
     for (uint k = 0u; k < words; k++) found[first + SHADES_HEAD + k] = room[k];
 }
 

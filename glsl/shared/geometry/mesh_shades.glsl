@@ -30,10 +30,14 @@ uint shades = 0u;
 // The first word of the shades of a pixel's cell; NO_LIST if not all are known.
 uint cell_shades(uint list) { return tile_lists[list + CELL_SHADES]; }
 
-uint count_of_shades(uint first) { return first == NO_LIST || first == NO_SHADES ? 0u : tile_lists[first + 6u]; }
+bool has_shades(uint first) { return first != NO_LIST && first != NO_SHADES; }
+
+uint count_of_shades(uint first) { return has_shades(first) ? tile_lists[first + SHADES_COUNT] : 0u; }
 
 // Words of bits of each of them.
-uint bits_of_shades(uint first) { return first == NO_LIST || first == NO_SHADES ? 0u : tile_lists[first + 7u]; }
+uint bits_of_shades(uint first) { return has_shades(first) ? tile_lists[first + SHADES_BITS] : 0u; }
+
+vec3 vector_at(uint at) { return uintBitsToFloat(uvec3(tile_lists[at], tile_lists[at + 1u], tile_lists[at + 2u])); }
 
 // True if the one at this word may shade a triangle that is marked.
 bool may_shade(uint at, uint bits, const Candidates marked) {
@@ -45,11 +49,9 @@ bool may_shade(uint at, uint bits, const Candidates marked) {
 // Cuts the region to that of the cell, beyond which its shades are not known.
 void cut_to_cell(uint first) {
     if (first == NO_SHADES) shade_region = EMPTY_REGION;
-    if (first == NO_LIST || first == NO_SHADES) return;
-    vec3 least = uintBitsToFloat(uvec3(tile_lists[first], tile_lists[first + 1u], tile_lists[first + 2u]));
-    vec3 greatest = uintBitsToFloat(uvec3(tile_lists[first + 3u], tile_lists[first + 4u], tile_lists[first + 5u]));
-    shade_region.least = max(shade_region.least, least);
-    shade_region.greatest = min(shade_region.greatest, greatest);
+    if (!has_shades(first)) return;
+    shade_region.least = max(shade_region.least, vector_at(first + SHADES_LEAST));
+    shade_region.greatest = min(shade_region.greatest, vector_at(first + SHADES_GREATEST));
 }
 
 // True if the triangle at a texel may be above the region.

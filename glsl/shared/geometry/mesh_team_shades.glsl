@@ -20,14 +20,9 @@ Candidates shaded_by(vec3 a, vec3 b, vec3 c, uint list, uint first) {
     shaded.list = list;
     uint seen = tile_lists[list + 2u];
     bool is_tested = seen * count_of_shades(first) <= MAX_SHADE_PAIRS;
-    float reach = uintBitsToFloat(tile_lists[first + 8u]);
+    float reach = uintBitsToFloat(tile_lists[first + SHADES_REACH]);
     for (uint k = 0u; k < seen; k++) {
-        uint at = listed_texel(shaded, k);
-        bool is_lit = is_tested;
-        if (is_tested) {
-            Receiver receiver = receiver_of(true, point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)));
-            is_lit = leaves_lit(a, b, c, receiver, reach);
-        }
+        bool is_lit = is_tested && leaves_lit(a, b, c, receiver_at(listed_texel(shaded, k)), reach);
         mark(shaded, k, !is_lit);
     }
     return shaded;
