@@ -10,6 +10,7 @@
 #include "features.glsl"
 #include "shading_integral.glsl"
 #include "slice.glsl"
+#include "loops.glsl"
 
 const uint MAX_MET = 8u;      // most shapes that a beam may meet
 // Planes whose inverse depths differ by a smaller relative amount are coplanar: the first in the list is
@@ -246,7 +247,7 @@ void main() {
             copy(BEAMS_AT + waiting_beams, WHOLE);
         }
     }
-    film[film_index(header, place)] = vec4(color, gave_up || more ? 1.0 : 0.0);
+    film[film_index(header, place)] = vec4(color, gave_up || more || loops_were_ended() ? 1.0 : 0.0);
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include "layout.glsl"
 #include "cone_shade.glsl"
 #include "slice.glsl"
+#include "loops.glsl"
 
 const vec2 MIDDLE = vec2(8388608.0); // of a pixel, in units of 2^-24
 
@@ -21,6 +22,7 @@ void main() {
     Ray ray = camera_ray(header, pixel, MIDDLE);
     uint at = film_index(header, place);
     film[at] = trace_cone(header, ray, camera_differential(header, ray));
+    if (loops_were_ended()) leave_unfinished(at);
     if (COMPENSATED) film[at + header.film_size.x * slice.band_height] = vec4(0.0);
     report_notices();
 }

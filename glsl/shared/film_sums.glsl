@@ -20,6 +20,11 @@ void add_to_film(const Header header, uint at, vec3 sum, vec3 lost, float signs,
         if (SIGNED) signs += film[at].w;
         sum = total;
     }
+    // A block that had to be divided.
+    if (!COMPENSATED && LOOPS_END && first_sample() > 0u) {
+        sum += film[at].xyz;
+        signs += film[at].w;
+    }
     if (COMPENSATED) film[at + pixels] = vec4(lost, 0.0);
     film[at] = vec4(sum, SIGNED ? signs : 0.0);
 }

@@ -11,6 +11,7 @@
 #include "sample_dimensions.glsl"
 #include "camera_sample.glsl"
 #include "film_sums.glsl"
+#include "loops.glsl"
 #include "render_team.glsl"
 
 // Samples of single pixels. A film of batches holds two halves, each with sums of radiance and of the mean of
@@ -27,6 +28,8 @@ struct Task {
     uint end;
 };
 
+#define NO_TASK Task(uvec2(0u, slice.band_height), 0u, 0u, 0u)
+
 Task tile_task() {
     return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
 }
@@ -39,7 +42,7 @@ uint batch_index() {
 
 Task listed_task() {
     uint i = batch_index();
-    if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
+    if (i >= slice.tiles) return NO_TASK;
     PixelBatch batch = batches[i];
     return Task(uvec2(batch.place & 0xFFFFu, batch.place >> 16u), batch.part, batch.first, batch.first + batch.count);
 }
@@ -47,12 +50,38 @@ Task listed_task() {
 // Without a list all pixels have the same batch, both halves of a pixel side by side.
 Task batch_task(const Header header) {
     uint i = batch_index();
-    if (i < slice.tiles && sample_count() > 0u) {
-        uvec2 place = uvec2((i >> 1u) % header.film_size.x, (i >> 1u) / header.film_size.x);
-        uint part = (i & 1u) | (i & 1u) << BATCH_STREAM_SHIFT;
-        return Task(place, part, first_sample(), first_sample() + sample_count());
+    if (i >= slice.tiles) return NO_TASK;
+    uvec2 place = uvec2((i >> 1u) % header.film_size.x, (i >> 1u) / header.film_size.x);
+    uint part = (i & 1u) | (i & 1u) << BATCH_STREAM_SHIFT;
+    return Task(place, part, first_sample(), first_sample() + sample_count());
+}
+
+// Long sums are divided into blocks: a block's samples are added directly, the blocks with compensation.
+uint block_of(const Task task) { return task.end - task.first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN; }
+
+// Cells say where the background alone is seen, which is the same for all samples.
+const bool BACKGROUND_IS_SUMMED = TILE_CULLED && !SIGNED && !MEASURES && !DIAGNOSED;
+
+// The sum of the samples of a pixel that sees the background alone, rounded as if each were taken.
+void sum_background(const Header header, const Task task, out vec3 sum, out vec3 lost, out float squares) {
+    float square = dot3(header.background, header.background) * (1.0 / 3.0);
+    uint block = BLOCKS ? block_of(task) : task.end - task.first;
+    sum = vec3(0.0);
+    lost = vec3(0.0);
+    squares = 0.0;
+    uint left = task.end - task.first;
+    while (left > 0u) {
+        vec3 part = vec3(0.0);
+        for (uint k = min(left, block); k > 0u; k--) {
+            part += header.background;
+            squares += square;
+        }
+        vec3 term = part - lost;
+        vec3 total = sum + term;
+        lost = (total - sum) - term;
+        sum = total;
+        left -= min(left, block);
     }
-    return listed_task();
 }
 
 void main() {
@@ -65,7 +94,8 @@ void main() {
     }
     bool is_batch = MODE_IS(SCHEDULES, SCHEDULE_BATCHES, schedule());
     Task task;
-    if (MESH_SEARCH == SEARCH_MORE || MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_REST) task = listed_task();
+    bool is_listed = OPAQUE(slice.listed) != 0u;
+    if (is_listed) task = listed_task();
     else if (is_batch) task = batch_task(header);
     else task = tile_task();
     if (!in_film(header, task.place)) return;
@@ -80,6 +110,8 @@ void main() {
     uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
     uint at = film_index(header, task.place);
+    uint end = task.end;
+    bool sees_nothing = false; // but the background
     Candidates candidates = ANYTHING;
     if (TILE_CULLED) {
         uvec2 place = task.place + uvec2(0u, slice.band_y);
@@ -92,8 +124,12 @@ void main() {
             if (HOLDS) {
                 unfinished = BY_HELD && any_left(candidates);
                 if (SHADES) unfinished = !gather_shades(header, pixel, marked) || unfinished;
-                if (unfinished) task.end = task.first;
+                if (unfinished) end = task.first;
             }
+        }
+        if (BACKGROUND_IS_SUMMED) {
+            if (candidates.list != NO_LIST) sees_nothing = tile_lists[candidates.list + 1u] == CELL_EMPTY;
+            if (sees_nothing) end = task.first;
         }
     }
 
@@ -108,19 +144,19 @@ void main() {
     uint s = task.first;
     Path path;
     path.is_alive = false;
-    // Long sums are divided into blocks: a block's samples are added directly, the blocks with compensation.
     // No do-while: lavapipe (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after
     // its body.
-    uint block = task.end - task.first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN;
+    uint block = block_of(task);
     vec3 lost = vec3(0.0); // the part that rounding has added to the sum
     uint stop = s;
     vec3 part;
     while (true) {
-        // Groups divide a block.
-        if (!GROUPED || s == stop) {
-            stop = BLOCKS ? min(s + block, task.end) : task.end;
-            part = vec3(0.0);
-        }
+        // Groups divide a block. In these places a condition in place of the choices would have lavapipe (Mesa 22.3.6) add the
+        // parts of lanes that are in the middle of a block, if others beside them have fewer samples.
+        bool begins = !GROUPED || s == stop;
+        uint block_end = BLOCKS ? min(s + block, end) : end;
+        stop = begins ? block_end : stop;
+        part = begins ? vec3(0.0) : part;
         uint start = s;
         uint until = stop;
         if (GROUPED) {
@@ -154,20 +190,22 @@ void main() {
             s += path.is_alive ? 0u : 1u;
             if (GROUPED) group_sample = s - start;
         }
-        if (!GROUPED || s == stop) {
-            vec3 term = part - lost;
-            vec3 total = sum + term;
-            lost = (total - sum) - term;
-            sum = total;
-        }
-        if ((!BLOCKS && !GROUPED) || s >= task.end) break;
+        bool ends = !GROUPED || s == stop;
+        vec3 term = ends ? part - lost : vec3(0.0);
+        vec3 total = sum + term;
+        lost = ends ? (total - sum) - term : lost;
+        sum = total;
+        if ((!BLOCKS && !GROUPED) || s >= end) break;
     }
 
-    if (BY_LISTS) {
-        if (unfinished) {
-            film[at] = vec4(first_sample() > 0u ? film[at].xyz : vec3(0.0), UNFINISHED);
+    if (BY_LISTS || LOOPS_END) {
+        if (loops_were_ended() || (BY_LISTS && unfinished)) {
+            leave_unfinished(is_listed || is_batch ? batch_index() : at);
             return;
         }
+    }
+    if (BACKGROUND_IS_SUMMED) {
+        if (sees_nothing) sum_background(header, task, sum, lost, squares);
     }
     report_notices();
 

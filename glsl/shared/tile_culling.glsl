@@ -24,6 +24,11 @@ uint cell_list(const Header header, uvec2 place) {
     if (side == 0u) return NO_LIST;
     uint across = (header.film_size.x + side - 1u) / side;
     uint at = ((place.y / side) * across + place.x / side) * CELL_WORDS;
+    if (CONCAVE_SHAPES && HOLDS_TRIANGLES) {
+        uvec2 quarter = (place % side) / (side / 2u);
+        bool is_divided = tile_lists[at + 1u] == CELL_DIVIDED;
+        at = is_divided ? tile_lists[at + CELL_MORE] + (2u * quarter.y + quarter.x) * CELL_WORDS : at;
+    }
     return tile_lists[at] <= LIST_ROOM ? at : NO_LIST;
 }
 

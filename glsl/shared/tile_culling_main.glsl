@@ -1,6 +1,6 @@
 // One thread per cell of pixels: the triangles that its camera rays may meet, and its content: EMPTY for the
 // background alone, UNIFORM for one shape that fills it and whose colour changes little from texel to pixel,
-// BUSY otherwise. found[cell] = number, content, triangles. Twin: src/oracle/tile_culling.rs.
+// BUSY otherwise, or DIVIDED if its quarters are to be surveyed. found[cell] = number, content, triangles. Twin: src/oracle/tile_culling.rs.
 #ifndef TILE_CULLING_MAIN_GLSL
 #define TILE_CULLING_MAIN_GLSL
 
@@ -67,6 +67,7 @@ void main() {
     if (thread >= part.end) return;
     uint side = header.cell_side;
     uvec2 cells = (header.film_size + side - 1u) / side;
+    bool is_quarter = CONCAVE_SHAPES && HOLDS_TRIANGLES && OPAQUE(part.quarters) != 0u;
     uint blocks = (cells.x + CELL_BLOCK_WIDTH - 1u) / CELL_BLOCK_WIDTH;
     uint across = blocks * CELL_BLOCK_WIDTH;
     uvec2 place = uvec2(thread % across, thread / across);
@@ -76,13 +77,20 @@ void main() {
         uvec2 in_block = uvec2(thread % CELL_BLOCK_WIDTH, thread / CELL_BLOCK_WIDTH % CELL_BLOCK_HEIGHT);
         place = uvec2(block % blocks * CELL_BLOCK_WIDTH, block / blocks * CELL_BLOCK_HEIGHT) + in_block;
     }
+    uint quarter = thread % 4u;
+    if (is_quarter) {
+        if (thread / 4u >= count_of_divisions(header)) return;
+        uint whole = found[first_division(header) + thread / 4u];
+        place = uvec2(whole % cells.x, whole / cells.x);
+    }
     if (place.x >= cells.x || place.y >= cells.y) return;
     uint cell = place.y * cells.x + place.x;
     uvec2 pixel = place * side + header.crop;
-    PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
+    uvec2 corner = pixel + (is_quarter ? uvec2(quarter % 2u, quarter / 2u) * (side / 2u) : uvec2(0u));
+    PixelFrustum frame = frame_over(header, corner, float((is_quarter ? side / 2u : side) - 1u), MARGIN);
     unit_square(SQUARE);
     COUNT_SHAPES
-    uint begin = cell * CELL_WORDS;
+    uint begin = is_quarter ? first_quarter(header, thread / 4u) + quarter * CELL_WORDS : cell * CELL_WORDS;
     uint seen = 0u;
     uint listed = 0u;
     uint alone = 0u;
@@ -99,7 +107,7 @@ void main() {
     }
     SHAPE_KINDS(SURVEY)
 #undef SURVEY
-    Survey survey = Survey(begin, 0u, NO_LIST, 0u, FAR, float[PROBES](FAR, FAR, FAR, FAR, FAR));
+    Survey survey = Survey(begin, 0u, NO_LIST, 0u, FAR, false, float[PROBES](FAR, FAR, FAR, FAR, FAR));
     if (CONCAVE_SHAPES) {
         CellRays cell_sides = cell_rays(header, frame);
         survey.first = min(listed, LIST_ROOM);
@@ -113,6 +121,17 @@ void main() {
     uint content = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {
         if (is_uniform(header, frame, alone, shape_region(header, frame, alone))) content = CELL_UNIFORM;
+    }
+    if (CONCAVE_SHAPES && HOLDS_TRIANGLES) {
+        bool lacks_shades = false;
+        if (LISTS_SHADES) lacks_shades = found[begin + CELL_SHADES] == NO_LIST;
+        if (!is_quarter && (survey.is_full || lacks_shades)) {
+            uint quarters = divided(header, cell);
+            if (quarters != NO_LIST) {
+                found[begin + CELL_MORE] = quarters;
+                content = CELL_DIVIDED;
+            }
+        }
     }
     found[begin] = listed;
     found[begin + 1u] = content;

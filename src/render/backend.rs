@@ -63,6 +63,9 @@ impl<'p> DeviceBackend<'p> {
         if let Some(diagnostics) = &session.resources.diagnostics {
             diagnostics.clear(session.gpu)?;
         }
+        if let Some(unfinished) = &session.resources.unfinished {
+            unfinished.clear(session.gpu)?;
+        }
         let begun = Instant::now();
         if let Some(tile_culling) = session.tile_culling().filter(|_| prepared.scene.culls_tiles()) {
             tile_culling.run(session.gpu, &mut report)?;

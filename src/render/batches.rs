@@ -1,16 +1,16 @@
 //! Sums batches of samples into two halves on the device, for sampling rates that differ from pixel to pixel. The film
 //! is divided into pages of whole rows that fit the device's buffers; each page has its own list of batches.
 
-use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
-use super::sample_pipeline::{Bindings, SamplePipeline};
+use super::batch_passes::{BatchFilm, BatchPasses, Batches, halves};
+use super::sample_pipeline::SamplePipeline;
 use super::{Report, Resources};
-use crate::core::error::{Error, Result};
+use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::sampling::HalfSums;
-use crate::schema::layout::{PixelBatch, Slice, TILE};
+use crate::schema::layout::{PixelBatch, Slice};
 
 /// Four floats for each half.
 const PIXEL_BYTES: u64 = 32;
@@ -19,27 +19,29 @@ const MAX_PAGE_BYTES: u64 = 64 << 20;
 const PART_SAMPLES: u32 = 64;
 /// Number of such batches whose sums one buffer holds.
 const MAX_PARTS: usize = 1 << 20;
-const BATCHES_PER_TILE: usize = (TILE * TILE) as usize;
 
 struct Page {
     rows: Rect,
-    film: Buffer,
+    film: BatchFilm,
 }
 
 /// Takes batches of samples and holds their sums.
 pub struct BatchSampler<'a> {
     gpu: &'a Gpu,
-    bindings: Bindings<'a>,
-    groups_per_tile: u32,
+    passes: BatchPasses<'a>,
     pages: Vec<Page>,
     size: [u32; 2],
     /// The mean of the samples' signs, if they have any: the film then also holds sums of negative samples, and counts.
     mean_sign: Option<f64>,
     /// Most samples that an invocation takes at once.
     block: u32,
-    /// Samples of the next submission, learnt from the previous ones.
-    next: f64,
 }
+
+/// A part of a batch that does not go to the film: the batch's index, and samples for one invocation.
+type Part = (usize, PixelBatch);
+
+/// Sums of each entry: of radiance, and if samples have signs also of negative samples, and the counts.
+type Planes = Vec<Vec<[f32; 4]>>;
 
 impl<'a> BatchSampler<'a> {
     pub fn new(
@@ -55,35 +57,23 @@ impl<'a> BatchSampler<'a> {
         let rows =
             (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
         let page = |rows: Rect| {
-            let film = gpu.buffer("film", row * u64::from(rows.height), BufferUse::Storage)?;
-            Ok(Page { rows, film })
+            let buffer = gpu.buffer("film", row * u64::from(rows.height), BufferUse::Storage)?;
+            Ok(Page { rows, film: film_of(rows, buffer) })
         };
         let pages = Rect::whole([width, height]).strips(rows).map(page).collect::<Result<Vec<_>>>()?;
-        let SamplePipeline { pipeline, shader, groups_per_tile } = pipeline;
         Ok(BatchSampler {
             gpu,
-            bindings: Bindings { resources, pipeline, shader },
-            groups_per_tile: *groups_per_tile,
+            passes: BatchPasses::new(gpu, pipeline, resources, width),
             pages,
             size: [width, height],
             mean_sign: scene.mean_sign,
             block: scene.samples_at_once,
-            next: FIRST_SAMPLES,
         })
     }
 
-    /// Runs one workgroup without a batch, so that lazy compilation in the driver happens now.
+    /// Runs one workgroup of each pass without a batch, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self) -> Result<()> {
-        let Some(page) = self.pages.first() else { return Ok(()) };
-        let batches = self.gpu.upload_buffer(
-            "batches",
-            BufferUse::Storage,
-            bytemuck::bytes_of(&PixelBatch::default()),
-        )?;
-        let group = self.bindings.bind(self.gpu, &page.film, Some(&batches))?;
-        let slice = Slice { tiles: 1, ..page.slice() };
-        self.gpu.run(self.bindings.pipeline, &group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
-        Ok(())
+        self.pages.first().map_or(Ok(()), |page| self.passes.warm_up(&page.film))
     }
 
     /// Takes all samples of a list, in rounds within the loop budget of an invocation.
@@ -94,115 +84,53 @@ impl<'a> BatchSampler<'a> {
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
+        let film = &self.pages[index].film;
         let (block, most) = (self.block, list.iter().map(|j| j.count).max().unwrap_or(0));
         if most <= block {
-            return self.page(index, list, report, progress);
+            return self.passes.run(film, &Batches::List(list), report, progress);
         }
         for done in (0..most).step_by(block as usize) {
             let rest = list.iter().filter(|j| j.count > done);
             let part =
                 rest.map(|j| PixelBatch { first: j.first + done, count: block.min(j.count - done), ..*j });
-            self.page(index, &part.collect::<Vec<_>>(), report, progress)?;
+            self.passes.run(film, &Batches::List(&part.collect::<Vec<_>>()), report, progress)?;
         }
         Ok(())
     }
 
-    /// Submits a list of batches in whole tiles.
-    fn page(
-        &mut self,
-        index: usize,
-        list: &[PixelBatch],
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<()> {
-        let batches = self.gpu.upload_buffer("batches", BufferUse::Storage, bytemuck::cast_slice(list))?;
-        let slice = Slice { tiles: list.len() as u32, ..self.pages[index].slice() };
-        let costs = costs(list);
-        let film = self.pages[index].film.clone();
-        self.submit(&film, slice, Some(&batches), costs, report, progress)
-    }
-
-    /// Takes the same number of samples of both halves of all pixels of a page.
-    fn whole_page(
-        &mut self,
-        index: usize,
-        first: u32,
-        count: u32,
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<()> {
-        let page = &self.pages[index];
-        let batches = 2 * self.size[0] * page.rows.height;
-        let slice = Slice { tiles: batches, first_sample: first, sample_count: count, ..page.slice() };
-        let cost = (BATCHES_PER_TILE * count as usize) as f64;
-        let costs = vec![cost; (batches as usize).div_ceil(BATCHES_PER_TILE)];
-        let film = page.film.clone();
-        self.submit(&film, slice, None, costs, report, progress)
-    }
-
-    /// Returns the sums of batches that do not go to the film, each short enough for one invocation: of radiance, and
-    /// if samples have signs also of negative samples, and the counts.
+    /// Takes parts by one pass. Returns their sums, and which ones are left.
     fn parts_apart(
         &mut self,
-        parts: &[(usize, PixelBatch)],
+        pass: usize,
+        parts: &[Part],
         report: &mut Report,
         progress: &dyn Progress,
-    ) -> Result<Vec<Vec<[f32; 4]>>> {
+    ) -> Result<(Planes, Vec<u32>)> {
         let list: Vec<PixelBatch> = parts.iter().map(|(_, batch)| *batch).collect();
         let planes = if self.mean_sign.is_some() { 3 } else { 1 };
         let plane = (list.len() * size_of::<[f32; 4]>()) as u64;
-        let film = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
-        let batches = self.gpu.upload_buffer("batches", BufferUse::Storage, bytemuck::cast_slice(&list))?;
+        let buffer = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
         // Positions are those of the whole picture.
-        let whole = Page { rows: Rect::whole(self.size), film: film.clone() };
-        let slice = Slice { tiles: list.len() as u32, ..whole.slice() };
-        self.submit(&film, slice, Some(&batches), costs(&list), report, progress)?;
+        let film = film_of(Rect::whole(self.size), buffer);
+        let left = self.passes.indices_left(pass, &film, &Batches::List(&list), report, progress)?;
         let read = |kind: u64| {
             let mut sums = vec![[0f32; 4]; list.len()];
-            self.gpu.read_buffer(&film, kind * plane, bytemuck::cast_slice_mut(&mut sums))?;
+            self.gpu.read_buffer(&film.buffer, kind * plane, bytemuck::cast_slice_mut(&mut sums))?;
             Ok(sums)
         };
-        (0..planes).map(read).collect()
-    }
-
-    /// Submits tiles with these numbers of samples, as many at once as previous timings allow.
-    fn submit(
-        &mut self,
-        film: &Buffer,
-        slice: Slice,
-        batches: Option<&Buffer>,
-        costs: Vec<f64>,
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<()> {
-        let group = self.bindings.bind(self.gpu, film, batches)?;
-        let mut first = 0;
-        while first < costs.len() {
-            let (mut tiles, mut samples) = (1, costs[first]);
-            while first + tiles < costs.len()
-                && tiles < MAX_TILES as usize
-                && samples + costs[first + tiles] <= self.next
-            {
-                samples += costs[first + tiles];
-                tiles += 1;
-            }
-            let slice = Slice { first_tile: first as u32, ..slice };
-            let groups = [self.groups_per_tile, tiles as u32, 1];
-            let time = self.gpu.run(self.bindings.pipeline, &group, bytemuck::bytes_of(&slice), groups)?;
-            self.next = next_work(samples, time.wall_seconds);
-            report.add_slice(time);
-            if progress.cancelled() {
-                return Err(Error::Interrupted);
-            }
-            first += tiles;
-        }
-        Ok(())
+        Ok(((0..planes).map(read).collect::<Result<_>>()?, left))
     }
 }
 
-/// Returns the samples of each tile of batches.
-fn costs(list: &[PixelBatch]) -> Vec<f64> {
-    list.chunks(BATCHES_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect()
+/// Returns a film of some rows.
+fn film_of(rows: Rect, buffer: Buffer) -> BatchFilm {
+    let slice = Slice {
+        band_y: rows.y,
+        band_height: rows.height,
+        schedule: Schedule::Batches as u32,
+        ..Default::default()
+    };
+    BatchFilm { buffer, slice }
 }
 
 /// Returns sums of radiance as if no sample had a sign, from the signed sums, those of negative samples alone, the sum
@@ -210,17 +138,6 @@ fn costs(list: &[PixelBatch]) -> Vec<f64> {
 fn weighed([sums, negative, [signs, samples, _, _]]: [[f64; 4]; 3], mean_sign: f64) -> [f32; 4] {
     let filtered = |c: usize| samples * filtered_mean(sums[c], negative[c], signs, samples, mean_sign);
     [filtered(0), filtered(1), filtered(2), sums[3]].map(|v| v as f32)
-}
-
-impl Page {
-    fn slice(&self) -> Slice {
-        Slice {
-            band_y: self.rows.y,
-            band_height: self.rows.height,
-            schedule: Schedule::Batches as u32,
-            ..Default::default()
-        }
-    }
 }
 
 impl BatchSampler<'_> {
@@ -255,9 +172,12 @@ impl BatchSampler<'_> {
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
-        for index in 0..self.pages.len() {
+        for page in &self.pages {
+            let pixels = self.size[0] * page.rows.height;
             for done in (0..count).step_by(self.block as usize) {
-                self.whole_page(index, first + done, self.block.min(count - done), report, progress)?;
+                let batches =
+                    Batches::Equal { pixels, first: first + done, count: self.block.min(count - done) };
+                self.passes.run(&page.film, &batches, report, progress)?;
             }
         }
         Ok(())
@@ -273,7 +193,7 @@ impl BatchSampler<'_> {
         // Each part that an invocation takes has a slot of its own. Parts are short, so that neighbouring invocations
         // work on one pixel and follow the same paths.
         let most = self.block.min(PART_SAMPLES);
-        let mut parts: Vec<(usize, PixelBatch)> = Vec::new();
+        let mut parts: Vec<Part> = Vec::new();
         for (i, batch) in batches.iter().enumerate() {
             let firsts = (0..batch.count).step_by(most as usize);
             parts.extend(firsts.map(|first| {
@@ -281,12 +201,30 @@ impl BatchSampler<'_> {
             }));
         }
         let mut sums = vec![[[0f64; 4]; 3]; batches.len()];
-        for parts in parts.chunks(MAX_PARTS) {
-            for (kind, plane) in self.parts_apart(parts, report, progress)?.iter().enumerate() {
-                for (&(i, _), sum) in parts.iter().zip(plane) {
-                    (0..4).for_each(|c| sums[i][kind][c] += f64::from(sum[c]));
+        let mut pass = 0;
+        while !parts.is_empty() {
+            let mut left: Vec<Part> = Vec::new();
+            for parts in parts.chunks(MAX_PARTS) {
+                let (planes, unfinished) = self.parts_apart(pass, parts, report, progress)?;
+                let mut is_left = vec![false; parts.len()];
+                unfinished.iter().for_each(|&at| is_left[at as usize] = true);
+                for (at, &(i, batch)) in parts.iter().enumerate() {
+                    if !is_left[at] {
+                        for (sum, plane) in sums[i].iter_mut().zip(&planes) {
+                            (0..4).for_each(|c| sum[c] += f64::from(plane[at][c]));
+                        }
+                    } else {
+                        left.push((i, batch));
+                    }
                 }
             }
+            if pass == self.passes.last() {
+                let pairs = halves(self.gpu, left.iter().map(|(_, batch)| batch), 0)?;
+                let of = left.iter().zip(pairs).flat_map(|(&(i, _), pair)| pair.map(|half| (i, half)));
+                left = of.filter(|(_, half)| half.count > 0).collect();
+            }
+            parts = left;
+            pass = self.passes.last().min(pass + 1);
         }
         let finish = |sums: [[f64; 4]; 3]| match self.mean_sign {
             Some(mean) => weighed(sums, mean),
@@ -303,12 +241,12 @@ impl BatchSampler<'_> {
             for (half, out) in sums.halves.iter_mut().enumerate() {
                 let out = &mut out[first..first + pixels];
                 let offset = |plane: usize| (plane * pixels * size_of::<[f32; 4]>()) as u64;
-                self.gpu.read_buffer(&page.film, offset(half), bytemuck::cast_slice_mut(out))?;
+                self.gpu.read_buffer(&page.film.buffer, offset(half), bytemuck::cast_slice_mut(out))?;
                 if let Some(mean) = self.mean_sign {
                     let [mut negative, mut counts] = [(); 2].map(|()| vec![[0f32; 4]; pixels]);
                     for (kind, plane) in [&mut negative, &mut counts].into_iter().enumerate() {
                         let offset = offset(2 * (1 + kind) + half);
-                        self.gpu.read_buffer(&page.film, offset, bytemuck::cast_slice_mut(plane))?;
+                        self.gpu.read_buffer(&page.film.buffer, offset, bytemuck::cast_slice_mut(plane))?;
                     }
                     for ((sums, negative), counts) in out.iter_mut().zip(&negative).zip(&counts) {
                         *sums = weighed([*sums, *negative, *counts].map(|v| v.map(f64::from)), mean);

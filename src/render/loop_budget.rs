@@ -1,9 +1,9 @@
-//! Limits the samples that one invocation takes at once. Mesa's CPU driver ends all loops of an invocation after 65 535
+//! Estimates the samples that one invocation takes at once. Mesa's CPU driver ends all loops of an invocation after 65 535
 //! iterations (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever remains. Input: a scene and a device.
-//! Output: the number of samples whose loops stay below that.
+//! Output: the number of samples whose loops should stay below that.
 
-use crate::core::error::{Error, Result};
-use crate::gpu::{DeviceInfo, DeviceKind};
+use super::Tuning;
+use crate::gpu::DeviceInfo;
 use crate::pack::features::{bends_rays, bounces};
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
@@ -31,24 +31,14 @@ const LAYERS: u64 = 4;
 /// Digits of Halton points, or iterations to find an order, with a margin.
 const POINTS: u64 = 64;
 
-/// Returns the samples that an invocation takes at once, from 1 to `MAX_SAMPLES_AT_ONCE`.
-pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
-    if device.kind != DeviceKind::Cpu {
-        return Ok(MAX_SAMPLES_AT_ONCE);
+/// Returns the samples that an invocation takes at once, from 1 to `MAX_SAMPLES_AT_ONCE`. Where they are too many all the
+/// same, the device's loops are ended and the samples are taken again in parts; that takes longer.
+pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> u32 {
+    if !Tuning::loops_end(device) {
+        return MAX_SAMPLES_AT_ONCE;
     }
     let iterations = iterations_of_a_sample(scene, ELLIPSE);
-    // Ellipses of that size occur at the horizon, not at each of many look-ups of one path.
-    let without_ellipses = iterations_of_a_sample(scene, 0);
-    if without_ellipses > MAX_ITERATIONS {
-        return Err(Error::with_help(
-            format!(
-                "device \"{}\" ends a shader's loops after {MAX_ITERATIONS} iterations; one sample of this scene may take {without_ellipses}",
-                device.name
-            ),
-            "use fewer shapes, lights or bounces, another device, or the device \"oracle\"",
-        ));
-    }
-    Ok((MAX_ITERATIONS / iterations).clamp(1, u64::from(MAX_SAMPLES_AT_ONCE)) as u32)
+    (MAX_ITERATIONS / iterations).clamp(1, u64::from(MAX_SAMPLES_AT_ONCE)) as u32
 }
 
 /// Returns an upper bound of the iterations for a pixel's cones, except for the number of fragments of each: if there
@@ -70,7 +60,7 @@ fn iterations_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     cones * (gathered + laid_over + shaded) + ellipse
 }
 
-/// Returns an upper bound of the iterations of one sample, given those of an ellipse.
+/// Returns about the iterations of one sample, rather too many, given those of an ellipse.
 fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     if scene.algorithm == Algorithm::Cone {
         return iterations_of_cones(scene, ellipse);

@@ -13,7 +13,7 @@ use crate::schema::specialization::Constant;
 
 /// Returns the passes of a scene by the `MESH_SEARCH` of each, given whether tile culling lists shades. Each one after the
 /// first takes the pixels that those before it leave unfinished. Pixels whose lists are not enough are sampled by passes of
-/// their own, if camera rays alone have lists: their mark takes the place of the sum of signs. Workgroups sample together if
+/// their own, if camera rays alone have lists. Workgroups sample together if
 /// no ray is left for trees, whose search would slow down all others.
 pub fn passes(
     device: &DeviceInfo,
@@ -22,10 +22,9 @@ pub fn passes(
     lists_shades: bool,
 ) -> &'static [u32] {
     let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
-    let has_mark = !bounces(scene) && scene.mean_sign.is_none();
-    match (has_lists && has_mark, Tuning::holds_triangles(device)) {
+    match (has_lists && !bounces(scene), Tuning::holds_triangles(device)) {
         (true, true) if lists_shades => &[SEARCH_FEW, SEARCH_MORE, SEARCH_MANY, SEARCH_REST],
-        (true, true) => &[SEARCH_FEW, SEARCH_MANY, SEARCH_REST],
+        (true, true) => &[SEARCH_FEW, SEARCH_MORE, SEARCH_MANY, SEARCH_REST],
         (true, false) if samples_by_teams(scene, features, lists_shades) => &[SEARCH_TEAM, SEARCH_TEAM_REST],
         _ => &[SEARCH_ALL],
     }
@@ -38,13 +37,15 @@ fn samples_by_teams(scene: &PackedScene, features: &Features, lists_shades: bool
     let many = scene.samples >= TEAM_SAMPLES;
     let by_lists = has_only(features, Constant::Projections, ProjectionKind::Perspective as u32)
         && (lists_shades || !features.has(Constant::Shadows));
-    many && by_lists && !scene.diagnosed
+    // Pixels that they leave have a mark in the place of the sum of signs.
+    let has_mark = scene.schedule == Schedule::Tiles && scene.mean_sign.is_none();
+    many && by_lists && has_mark && !scene.diagnosed
 }
 
 /// Returns true if what may shade a pixel can be listed, and pixels are sampled in passes that use it: triangles of meshes
 /// at rest, where nothing else is and one directional light shines.
-pub fn lists_shades(scene: &PackedScene, features: &Features) -> bool {
-    scene.schedule == Schedule::Tiles
+pub fn lists_shades(device: &DeviceInfo, scene: &PackedScene, features: &Features) -> bool {
+    (scene.schedule == Schedule::Tiles || Tuning::holds_triangles(device))
         && !bounces(scene)
         && scene.mean_sign.is_none()
         && !features.everything

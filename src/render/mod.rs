@@ -4,6 +4,7 @@
 
 mod aov;
 mod backend;
+mod batch_passes;
 mod batches;
 mod beams;
 mod diagnostics;
@@ -29,6 +30,7 @@ mod tile_culling;
 mod tiles;
 mod tuning;
 mod unfinished;
+mod unfinished_list;
 
 use std::sync::Arc;
 
@@ -186,6 +188,7 @@ pub(crate) fn build_pipeline(
     let bindings: Vec<BindingDesc> = shader.bindings.iter().filter(is_bound).map(describe).collect();
     let opaque = (Constant::OpaqueUniforms, u32::from(Tuning::opaque_uniforms(gpu.info())));
     let holds = (Constant::HoldsTriangles, u32::from(Tuning::holds_triangles(gpu.info())));
-    let constants = [constants, &shader.values([opaque, holds])].concat();
+    let loops_end = (Constant::LoopsEnd, u32::from(Tuning::loops_end(gpu.info())));
+    let constants = [constants, &shader.values([opaque, holds, loops_end])].concat();
     gpu.shader_pipeline(shader, &bindings, push_constant_bytes as u32, &constants)
 }

@@ -8,6 +8,8 @@ use super::images::Uploads;
 use super::mesh_upload;
 use super::mip_chain::MipGenerator;
 use super::texel_buffer::{self, TexelBuffer};
+use super::tuning::Tuning;
+use super::unfinished_list::UnfinishedList;
 use crate::core::error::Result;
 use crate::gpu::shaders::{self, ReflectedBinding, Shader};
 use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, Pipeline, Sampler};
@@ -45,6 +47,8 @@ pub struct Resources {
     pub tile_lists: OnceLock<Buffer>,
     /// The counters, if the pipelines count.
     pub diagnostics: Option<DiagnosticCounters>,
+    /// What submissions leave unfinished, where the device ends loops.
+    pub unfinished: Option<Arc<UnfinishedList>>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
     cubes: Vec<(Image, Sampler)>,
@@ -110,6 +114,9 @@ impl Resources {
                 .has(Constant::Diagnosed)
                 .then(|| DiagnosticCounters::new(gpu))
                 .transpose()?,
+            unfinished: Tuning::loops_end(gpu.info())
+                .then(|| UnfinishedList::new(gpu, packed.header.film_size.to_array()).map(Arc::new))
+                .transpose()?,
             images,
             volumes,
             cubes,
@@ -156,6 +163,9 @@ impl Resources {
                 (BindingKind::StorageBuffer, bindings::DIAGNOSTICS) => Bound::Buffer(
                     self.diagnostics.as_ref().map_or(&self.scene, |diagnostics| &diagnostics.buffer),
                 ),
+                (BindingKind::StorageBuffer, bindings::UNFINISHED) => {
+                    Bound::Buffer(self.unfinished.as_ref().map_or(&self.scene, |list| &list.buffer))
+                }
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, bindings::SRGB_LIGHT) => {

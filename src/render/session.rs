@@ -24,6 +24,7 @@ use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::{Rest, TileRenderer};
+use super::unfinished::UnfinishedPixels;
 use super::{Report, Tuning};
 
 pub struct Session<'a> {
@@ -88,7 +89,7 @@ impl<'a> Session<'a> {
     ) -> Result<Session<'a>> {
         let clock = Instant::now();
         let warnings = scene.adapt_to_device(gpu.info().limits.float64).into_iter().collect();
-        scene.samples_at_once = samples_at_once(gpu.info(), &scene)?;
+        scene.samples_at_once = tuning.samples_at_once.unwrap_or_else(|| samples_at_once(gpu.info(), &scene));
         let image_source = tuning.image_source(gpu, &scene);
         let features = Features::new(&scene, image_source, keep_everything);
         let meshes = std::mem::take(&mut scene.mesh_texels);
@@ -177,12 +178,19 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let mut pipelines = self.pipelines(scene, features, shader)?;
-        let (pipeline, groups_per_tile) = pipelines.remove(0);
+        let (pipelines, groups_per_tile) = self.pipelines(scene, features, shader)?;
         let film = self.film(scene, features)?;
-        let later = pipelines.into_iter().map(|(pipeline, _)| pipeline).collect();
         let [x, y] = self.tuning.group_size(self.gpu.info())?;
-        let rest = Rest::new(self.gpu, &self.resources, shader, later, x * y, &film)?;
+        let rest = match (&self.resources.unfinished, pipelines.get(1)) {
+            (Some(unfinished), _) => {
+                let pixels =
+                    UnfinishedPixels::new(self.gpu, &self.resources, shader, &pipelines, x * y, &film)?;
+                Rest::Lists(unfinished.clone(), pixels)
+            }
+            (None, Some(second)) => Rest::Tiles(second.clone()),
+            (None, None) => Rest::Nothing,
+        };
+        let pipeline = pipelines[0].clone();
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;

@@ -15,23 +15,23 @@ use crate::gpu::shaders::Shader;
 use crate::pack::features::Features;
 use crate::pack::{PackedScene, Schedule};
 use crate::render::resources::shader_for;
-use crate::schema::constants::{SEARCH_ALL, SEARCH_TEAM, SEARCH_TEAM_REST, TEAM_HEIGHT, TEAM_WIDTH};
+use crate::schema::constants::{SEARCH_TEAM, SEARCH_TEAM_REST, TEAM_HEIGHT, TEAM_WIDTH};
 use crate::schema::layout::Slice;
 use crate::schema::specialization::Constant;
 
-/// A pipeline, and its number of workgroups per tile.
-type Built = (Arc<Pipeline>, u32);
+/// The pipelines of all passes, and the first one's number of workgroups per tile.
+type Passes = (Vec<Arc<Pipeline>>, u32);
 
 impl Session<'_> {
     /// Returns tile culling. The pipelines of samples, which need its lists, are built meanwhile and kept for later.
     pub(super) fn new_tile_culling(&self, scene: &PackedScene, features: &Features) -> Result<TileCulling> {
         let ahead = || match scene.schedule {
-            Schedule::Tiles if !scene.beams => {
+            Schedule::Tiles if scene.beams => {}
+            Schedule::Tiles | Schedule::Batches => {
                 // An error comes back when they are asked for.
                 let _ = shader_for(scene.algorithm, features)
                     .and_then(|shader| self.pipelines(scene, features, shader));
             }
-            Schedule::Tiles | Schedule::Batches => {}
         };
         rayon::join(|| TileCulling::new(self.gpu, scene, &self.resources, features), ahead).0
     }
@@ -42,21 +42,29 @@ impl Session<'_> {
         scene: &PackedScene,
         features: &Features,
         shader: &'static Shader,
-    ) -> Result<Vec<Built>> {
+    ) -> Result<Passes> {
         // Lists serve all choices of samples of a session.
         let lists_shades = match self.tile_culling() {
             Some(tile_culling) => tile_culling.lists_shades,
-            None => mesh_passes::lists_shades(scene, features),
+            None => mesh_passes::lists_shades(self.gpu.info(), scene, features),
         };
         let searches = mesh_passes::passes(self.gpu.info(), scene, features, lists_shades);
         let build = |&search: &u32| self.pipeline(features, shader, search, lists_shades);
-        searches.par_iter().map(build).collect()
+        let pipelines = searches.par_iter().map(build).collect::<Result<Vec<_>>>()?;
+        Ok((pipelines, tuning::groups_per_tile(self.group_size(searches[0])?)))
+    }
+
+    fn group_size(&self, search: u32) -> Result<[u32; 2]> {
+        match search {
+            SEARCH_TEAM | SEARCH_TEAM_REST => Ok([TEAM_WIDTH, TEAM_HEIGHT]),
+            _ => self.tuning.group_size(self.gpu.info()),
+        }
     }
 
     pub(super) fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
         let shader = shader_for(scene.algorithm, features)?;
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL, false)?;
-        Ok(SamplePipeline { pipeline, shader, groups_per_tile })
+        let (pipelines, groups_per_tile) = self.pipelines(scene, features, shader)?;
+        Ok(SamplePipeline { pipelines, shader, groups_per_tile })
     }
 
     fn pipeline(
@@ -65,11 +73,8 @@ impl Session<'_> {
         shader: &'static Shader,
         search: u32,
         lists_shades: bool,
-    ) -> Result<Built> {
-        let group_size = match search {
-            SEARCH_TEAM | SEARCH_TEAM_REST => [TEAM_WIDTH, TEAM_HEIGHT],
-            _ => self.tuning.group_size(self.gpu.info())?,
-        };
+    ) -> Result<Arc<Pipeline>> {
+        let group_size = self.group_size(search)?;
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
@@ -81,7 +86,6 @@ impl Session<'_> {
             (Constant::Quantities, features.quantities),
         ];
         constants.extend(shader.values(parameters));
-        let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
-        Ok((pipeline, tuning::groups_per_tile(group_size)))
+        build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())
     }
 }

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::{Report, Resources, build_pipeline, mesh_passes, specialization};
+use super::{Report, Resources, Tuning, build_pipeline, mesh_passes, specialization};
 use crate::core::error::Result;
 use crate::gpu::shaders;
 use crate::gpu::{BindGroup, Buffer, BufferUse, DeviceKind, Gpu, Pipeline};
@@ -12,8 +12,8 @@ use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
 use crate::schema::layout::{
-    CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CELLS_A_ROOM, CellRange,
-    MORE_WORDS, SHADE_WORDS, TILE,
+    CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_COUNTER_DIVISIONS, CELL_COUNTERS, CELL_EMPTY, CELL_UNIFORM,
+    CELL_WORDS, CELLS_A_DIVISION, CELLS_A_ROOM, CellRange, MORE_WORDS, SHADE_WORDS, TILE,
 };
 use crate::schema::specialization::Constant;
 
@@ -23,8 +23,8 @@ const GROUP: u32 = 64;
 const MAX_TESTS_CPU: u64 = 1 << 24;
 const MAX_TESTS_GPU: u64 = 1 << 28;
 
-/// What stands behind the cells at first: no rooms and no words of shades are taken.
-const COUNTERS: [u32; 2] = [0, 0];
+/// What stands behind the cells at first: nothing is taken.
+const COUNTERS: [u32; CELL_COUNTERS as usize] = [0; CELL_COUNTERS as usize];
 
 /// Boxes and triangles of meshes that are tested for a cell, of few of which more.
 const TESTS_OF_MESHES: u64 = 1024;
@@ -52,7 +52,7 @@ impl TileCulling {
     ) -> Result<TileCulling> {
         let shader = shaders::TILE_CULLING_FAMILY.shader(TexelSource::None, features.records())?;
         let slots = resources.slots;
-        let lists_shades = mesh_passes::lists_shades(scene, features);
+        let lists_shades = mesh_passes::lists_shades(gpu.info(), scene, features);
         let mut constants =
             specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
         constants.extend(shader.values([(Constant::ListsShades, u32::from(lists_shades))]));
@@ -64,10 +64,16 @@ impl TileCulling {
         let cells_end = count * u64::from(CELL_WORDS) * 4;
         let mut bytes = cells_end;
         if scene.has_concave_shapes() {
+            let divisions = if Tuning::holds_triangles(gpu.info()) {
+                count.div_ceil(u64::from(CELLS_A_DIVISION)) * (1 + 4 * u64::from(CELL_WORDS))
+            } else {
+                0
+            };
             let rooms = count.div_ceil(u64::from(CELLS_A_ROOM)) * u64::from(MORE_WORDS);
             let shades = if lists_shades { count * u64::from(SHADE_WORDS) } else { 0 };
             let limit = gpu.info().limits.max_storage_buffer_range;
-            bytes = (cells_end + (COUNTERS.len() as u64 + rooms + shades) * 4).min(limit.max(cells_end));
+            bytes = (cells_end + (COUNTERS.len() as u64 + divisions + rooms + shades) * 4)
+                .min(limit.max(cells_end));
         }
         let has_rooms = bytes >= cells_end + COUNTERS.len() as u64 * 4;
         let buffer = gpu.buffer("tile lists", bytes, BufferUse::Storage)?;
@@ -81,7 +87,7 @@ impl TileCulling {
         // Lazy compilation in the driver happens now; the pipelines that read the lists are then tried on the first tile.
         let [across, down] = culling.whole_blocks();
         let end = across * down.min(TILE.div_ceil(side).next_multiple_of(CELL_BLOCK_HEIGHT));
-        culling.part(gpu, CellRange { first: 0, end }, &mut Report::default())?;
+        culling.part(gpu, CellRange { first: 0, end, quarters: 0 }, &mut Report::default())?;
         Ok(culling)
     }
 
@@ -94,18 +100,29 @@ impl TileCulling {
     /// Fills the lists.
     pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
         if self.has_rooms {
-            let cells = u64::from(self.cells[0]) * u64::from(self.cells[1]);
-            gpu.write_buffer(
-                &self.buffer,
-                cells * u64::from(CELL_WORDS) * 4,
-                bytemuck::cast_slice(&COUNTERS),
-            )?;
+            gpu.write_buffer(&self.buffer, self.cells_end(), bytemuck::cast_slice(&COUNTERS))?;
         }
         let cells = self.whole_blocks().iter().product();
         for first in (0..cells).step_by(self.cells_at_once as usize) {
-            self.part(gpu, CellRange { first, end: cells.min(first + self.cells_at_once) }, report)?;
+            let end = cells.min(first + self.cells_at_once);
+            self.part(gpu, CellRange { first, end, quarters: 0 }, report)?;
+        }
+        if self.has_rooms {
+            let mut counters = COUNTERS;
+            gpu.read_buffer(&self.buffer, self.cells_end(), bytemuck::cast_slice_mut(&mut counters))?;
+            let room = (self.cells[0] * self.cells[1]).div_ceil(CELLS_A_DIVISION);
+            let end = 4 * counters[CELL_COUNTER_DIVISIONS as usize].min(room);
+            for first in (0..end).step_by(self.cells_at_once as usize) {
+                let end = end.min(first + self.cells_at_once);
+                self.part(gpu, CellRange { first, end, quarters: 1 }, report)?;
+            }
         }
         Ok(())
+    }
+
+    /// Returns the bytes of the cells.
+    fn cells_end(&self) -> u64 {
+        self.cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4
     }
 
     fn part(&self, gpu: &Gpu, part: CellRange, report: &mut Report) -> Result<()> {

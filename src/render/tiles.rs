@@ -3,13 +3,13 @@
 
 use std::sync::Arc;
 
+use super::Report;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
 use super::unfinished::UnfinishedPixels;
-use super::{Report, Resources};
+use super::unfinished_list::UnfinishedList;
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
-use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Gpu, Pipeline};
 use crate::schema::constants::TEAM_SQUARES;
 use crate::schema::layout::Slice;
@@ -17,28 +17,9 @@ use crate::schema::layout::Slice;
 /// What takes the samples of the pixels that a first pipeline leaves unfinished.
 pub enum Rest {
     Nothing,
-    Lists(UnfinishedPixels),
+    Lists(Arc<UnfinishedList>, UnfinishedPixels),
     /// A second pipeline, which skips the others by itself.
     Tiles(Arc<Pipeline>),
-}
-
-impl Rest {
-    /// `later` are the pipelines of the passes after the first one, of one shader: none, one that skips finished pixels
-    /// by itself, or several that take lists.
-    pub fn new(
-        gpu: &Gpu,
-        resources: &Resources,
-        shader: &Shader,
-        mut later: Vec<Arc<Pipeline>>,
-        threads_per_group: u32,
-        film: &Arc<FilmBuffer>,
-    ) -> Result<Rest> {
-        Ok(match later.len() {
-            0 => Rest::Nothing,
-            1 => Rest::Tiles(later.remove(0)),
-            _ => Rest::Lists(UnfinishedPixels::new(gpu, resources, shader, later, threads_per_group, film)?),
-        })
-    }
 }
 
 pub struct TileRenderer<'a> {
@@ -55,7 +36,7 @@ impl TileRenderer<'_> {
         if let Some(band) = film.bands(film.whole()).next() {
             let slice = Slice { sample_count: 1, ..band.slice() };
             self.run(&slice, [1, 1, 1], &mut Report::default())?;
-            if let Rest::Lists(rest) = &self.rest {
+            if let Rest::Lists(_, rest) = &self.rest {
                 rest.warm_up(self.gpu, &band)?;
             }
         }
@@ -101,8 +82,8 @@ impl TileRenderer<'_> {
                 }
                 first_tile += tiles;
             }
-            if let Rest::Lists(rest) = &self.rest {
-                rest.finish(self.gpu, band, [first_sample, sample_count], report, progress)?;
+            if let Rest::Lists(unfinished, rest) = &self.rest {
+                rest.finish(self.gpu, unfinished, band, [first_sample, sample_count], report, progress)?;
             }
         }
         Ok(())

@@ -52,11 +52,13 @@ pub struct Tuning {
     pub group: Option<[u32; 2]>,
     /// Largest length of a texel buffer in words, if less than the device allows.
     pub texel_words: Option<u64>,
+    /// Most samples of a pixel that an invocation takes at once, in place of what its loops allow.
+    pub samples_at_once: Option<u32>,
 }
 
 impl Default for Tuning {
     fn default() -> Self {
-        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None }
+        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None, samples_at_once: None }
     }
 }
 
@@ -107,6 +109,12 @@ impl Tuning {
     /// Returns true if a pixel's triangles are kept in registers: lavapipe reads memory lane by lane. GPUs keep them in
     /// shared memory, for workgroups that sample together; lavapipe (Mesa 22.3.6) loses samples there.
     pub fn holds_triangles(device: &DeviceInfo) -> bool {
+        device.kind == DeviceKind::Cpu
+    }
+
+    /// Returns true if the driver ends all loops of a thread that together turn too often: Mesa's CPU driver does, see
+    /// `glsl/shared/loops.glsl`.
+    pub fn loops_end(device: &DeviceInfo) -> bool {
         device.kind == DeviceKind::Cpu
     }
 

@@ -1,16 +1,17 @@
 //! Takes the samples of the pixels that the first pass of a renderer leaves unfinished, pass by pass. Input: a band of the
-//! film, where such pixels are marked, and a range of samples. Output: their sums in the film. Each pass takes a list of
-//! pixels and no others: where lanes of finished pixels wait for the others, these would cost as much.
+//! film and a range of samples. Output: their sums in the film. Each pass takes a list of pixels and no others: where lanes
+//! of finished pixels wait for the others, these would cost as much. What the last pass leaves, as its loops were ended, it
+//! takes again with half as many samples at once.
 
 use std::sync::Arc;
 
 use super::film_buffer::{Band, FilmBuffer};
+use super::unfinished_list::{UnfinishedList, too_long};
 use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
-use crate::schema::constants::UNFINISHED;
 use crate::schema::layout::{PixelBatch, Slice, TILE};
 
 /// Pixels that one submission takes: as many as a tile has.
@@ -21,7 +22,9 @@ const BLOCK: u32 = 8;
 
 /// The passes after the first one, each by a list of the pixels that are left.
 pub struct UnfinishedPixels {
-    pipelines: Vec<Arc<Pipeline>>,
+    later: Vec<Arc<Pipeline>>,
+    /// The last pass, which may be the first one.
+    last: Arc<Pipeline>,
     /// The list of pixels, with room for `AT_ONCE`.
     list: Buffer,
     group: BindGroup,
@@ -29,70 +32,107 @@ pub struct UnfinishedPixels {
     film: Arc<FilmBuffer>,
 }
 
+/// Some samples of pixels of a band.
+struct Run<'r> {
+    gpu: &'r Gpu,
+    unfinished: &'r UnfinishedList,
+    band: &'r Band,
+    report: &'r mut Report,
+    progress: &'r dyn Progress,
+}
+
 impl UnfinishedPixels {
-    /// `pipelines`, of one shader, are the passes after the first one, in order.
+    /// `pipelines`, of one shader, are all passes, in order.
     pub fn new(
         gpu: &Gpu,
         resources: &Resources,
         shader: &Shader,
-        pipelines: Vec<Arc<Pipeline>>,
+        pipelines: &[Arc<Pipeline>],
         threads_per_group: u32,
         film: &Arc<FilmBuffer>,
     ) -> Result<UnfinishedPixels> {
+        let last = pipelines.last().ok_or_else(|| Error::new("a renderer without a pass"))?.clone();
         let bytes = (AT_ONCE * size_of::<PixelBatch>()) as u64;
         let list = gpu.buffer("unfinished pixels", bytes, BufferUse::Storage)?;
-        let group = resources.bind(gpu, &pipelines[0], shader, &film.buffer, Some(&list))?;
-        Ok(UnfinishedPixels { pipelines, list, group, threads_per_group, film: film.clone() })
+        let group = resources.bind(gpu, &last, shader, &film.buffer, Some(&list))?;
+        let later = pipelines[1..].to_vec();
+        Ok(UnfinishedPixels { later, last, list, group, threads_per_group, film: film.clone() })
     }
 
-    /// Runs each pipeline on a list without pixels, so that lazy compilation in the driver happens now.
+    /// Runs each later pipeline on a list without pixels, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self, gpu: &Gpu, band: &Band) -> Result<()> {
-        let slice = Slice { tiles: 0, sample_count: 1, ..band.slice() };
-        for pipeline in &self.pipelines {
+        let slice = Slice { tiles: 0, listed: 1, sample_count: 1, ..band.slice() };
+        for pipeline in &self.later {
             gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
         }
         Ok(())
     }
 
-    /// Adds `count` samples from `first` on.
+    /// Adds `count` samples from `first` on to the pixels that the first pass has left.
     pub fn finish(
         &self,
         gpu: &Gpu,
+        unfinished: &UnfinishedList,
         band: &Band,
         [first, count]: [u32; 2],
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
-        for pipeline in &self.pipelines {
-            for pixels in self.marked(gpu, band)?.chunks(AT_ONCE) {
-                let batch = |&place: &u32| PixelBatch { place, part: 0, first, count };
-                let batches: Vec<PixelBatch> = pixels.iter().map(batch).collect();
-                gpu.write_buffer(&self.list, 0, bytemuck::cast_slice(&batches))?;
-                let entries = pixels.len() as u32;
-                let slice =
-                    Slice { tiles: entries, first_sample: first, sample_count: count, ..band.slice() };
-                let groups = [entries.div_ceil(self.threads_per_group), 1, 1];
-                let time = gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
-                report.add_slice(time);
-                if progress.cancelled() {
-                    return Err(Error::Interrupted);
-                }
-            }
+        let mut run = Run { gpu, unfinished, band, report, progress };
+        let width = self.film.width();
+        let mut pixels = unfinished.take(gpu)?;
+        pixels.iter_mut().for_each(|pixel| *pixel = PixelBatch::place_of(*pixel, width));
+        // Neighbours together: their rays go through the same nodes.
+        pixels.sort_by_key(|&place| (((place >> 16) / BLOCK) << 16) | ((place & 0xFFFF) / BLOCK));
+        for pipeline in &self.later {
+            pixels = self.sample(&mut run, pipeline, &pixels, [first, count])?;
+        }
+        self.sample_in_parts(&mut run, &pixels, [first, count])
+    }
+
+    /// Takes the samples in two parts, one after the other, and each of these likewise if it must be.
+    fn sample_in_parts(&self, run: &mut Run, pixels: &[u32], [first, count]: [u32; 2]) -> Result<()> {
+        let Some(place) = pixels.first() else { return Ok(()) };
+        let half = count / 2;
+        if half == 0 {
+            return Err(too_long(run.gpu, [place & 0xFFFF, (place >> 16) + run.band.y]));
+        }
+        for part in [[first, half], [first + half, count - half]] {
+            let left = self.sample(run, &self.last, pixels, part)?;
+            self.sample_in_parts(run, &left, part)?;
         }
         Ok(())
     }
 
-    /// Returns the places of the pixels that are marked, neighbours together: their rays go through the same nodes.
-    fn marked(&self, gpu: &Gpu, band: &Band) -> Result<Vec<u32>> {
-        let width = self.film.width();
-        let first = (band.y * width) as usize;
-        let mut places = Vec::new();
-        self.film.read_with(gpu, band, |pixel, sums| {
-            if sums[3] == UNFINISHED as f32 {
-                places.push(PixelBatch::place_of((pixel - first) as u32, width));
+    /// Takes samples of pixels by their places; returns those that are left unfinished.
+    fn sample(
+        &self,
+        run: &mut Run,
+        pipeline: &Pipeline,
+        pixels: &[u32],
+        [first, count]: [u32; 2],
+    ) -> Result<Vec<u32>> {
+        let mut left = Vec::new();
+        for pixels in pixels.chunks(AT_ONCE) {
+            let batch = |&place: &u32| PixelBatch { place, part: 0, first, count };
+            let batches: Vec<PixelBatch> = pixels.iter().map(batch).collect();
+            run.gpu.write_buffer(&self.list, 0, bytemuck::cast_slice(&batches))?;
+            let entries = pixels.len() as u32;
+            let slice = Slice {
+                tiles: entries,
+                listed: 1,
+                first_sample: first,
+                sample_count: count,
+                ..run.band.slice()
+            };
+            let groups = [entries.div_ceil(self.threads_per_group), 1, 1];
+            let time = run.gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
+            run.report.add_slice(time);
+            if run.progress.cancelled() {
+                return Err(Error::Interrupted);
             }
-        })?;
-        places.sort_by_key(|&place| (((place >> 16) / BLOCK) << 16) | ((place & 0xFFFF) / BLOCK));
-        Ok(places)
+            left.extend(run.unfinished.take(run.gpu)?.into_iter().map(|at| pixels[at as usize]));
+        }
+        Ok(left)
     }
 }

@@ -25,6 +25,8 @@ bindings! {
     DIAGNOSTICS = 11;
     /// Nodes, corners and attributes of meshes.
     MESHES = 12;
+    /// Entries that a submission leaves unfinished.
+    UNFINISHED = 13;
     /// For generating mip chains: the texture as in the texel buffer.
     MIP_WORDS = 0;
     /// Values of two levels, between which the passes alternate.

@@ -17,12 +17,16 @@ blocks! {
         sample_count,
         /// A `Schedule`.
         schedule,
+        /// 1: `tiles` entries of the list; 0: the same samples of all pixels.
+        listed,
     }
 
     /// Cells that one submission of `tile_culling_main.glsl` processes: `first` .. `end`.
     CellRange {
         first,
         end,
+        /// 1: quarters of divided cells, four of each.
+        quarters,
     }
 
     /// A batch: samples `first` .. `first + count` of one half of a pixel.

@@ -46,8 +46,14 @@ constants! {
     CELL_PARTS: u32 = 4;
     CELL_MASK_WORDS: u32 = 3;
     /// Room for more triangles of a cell with meshes: `MAX_MORE_LISTED` of them, then `MORE_MASK_WORDS` further words of bits
-    /// for each part of the cell. The number of those rooms that are taken, that of words of shades that are taken, the rooms
-    /// themselves, one for `CELLS_A_ROOM` cells, and words of shades follow the cells.
+    /// for each part of the cell. Behind the cells stand `CELL_COUNTERS`: the numbers of rooms, of words of shades and of divided
+    /// cells that are taken; then the divided cells and their quarters, one for `CELLS_A_DIVISION` cells; the rooms, one for
+    /// `CELLS_A_ROOM` cells; and words of shades.
+    CELL_COUNTERS: u32 = 3;
+    CELL_COUNTER_ROOMS: u32 = 0;
+    CELL_COUNTER_SHADES: u32 = 1;
+    CELL_COUNTER_DIVISIONS: u32 = 2;
+    CELLS_A_DIVISION: u32 = 32;
     MORE_WORDS: u32 = 261;
     CELLS_A_ROOM: u32 = 16;
     MAX_MORE_LISTED: u32 = 181;
@@ -90,10 +96,12 @@ constants! {
     /// Cells of a block, which follow each other where subgroups are short.
     CELL_BLOCK_WIDTH: u32 = 4;
     CELL_BLOCK_HEIGHT: u32 = 2;
-    /// Content of a cell: the background alone; one shape whose colour changes little; anything else.
+    /// Content of a cell: the background alone; one shape whose colour changes little; anything else; so much that each of its
+    /// quarters has `CELL_WORDS` of its own, the first of which is in the place of the room for more.
     CELL_EMPTY: u32 = 0;
     CELL_UNIFORM: u32 = 1;
     CELL_BUSY: u32 = 2;
+    CELL_DIVIDED: u32 = 3;
 
     /// Children of a node of the trees of meshes.
     TREE_WIDTH: u32 = 4;

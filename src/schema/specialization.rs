@@ -107,6 +107,8 @@ specialization! {
     ListsShades = "LISTS_SHADES", flag, "lists of shadows";
     /// Triangles of meshes are kept in registers for all samples of a pixel.
     HoldsTriangles = "HOLDS_TRIANGLES", flag, "triangles in registers";
+    /// The device ends the loops of threads that turn often.
+    LoopsEnd = "LOOPS_END", flag, "test for loops that the device ended";
     OpaqueUniforms = "OPAQUE_UNIFORMS", id, "numbers whose uniformity is hidden";
     MipChannels = "CHANNELS", id, "channels of a mip chain";
     MipComponentBytes = "COMPONENT_BYTES", id, "bytes of a mip chain's channels";

@@ -11,6 +11,7 @@ use crate::layering::{files_under, source_root};
 const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("bsdf/models", "the oracle's stands at the head of its folder: `bsdf/mod.rs`"),
     ("diagnostics", "counters of the device"),
+    ("loops", "a limit of a driver"),
     ("mip_chain", "its twin makes levels on the host: `src/texture/mips`"),
     ("geometry/mesh_lists", "lists shorten a search: pictures with and without them are equal"),
     ("geometry/mesh_survey", "it makes these lists"),

@@ -3,15 +3,21 @@
 
 use std::path::Path;
 
+use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;
 use moire::internal::gpu::DeviceKind;
+use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Tuning};
-use moire::internal::scene::model::{Footprint, Scene, Triangle};
+use moire::internal::scene::model::{
+    Algorithm, Footprint, Model, Pattern, PixelFilter, PixelFilterKind, Scene, Triangle,
+};
 use moire::internal::scene::parse;
 use moire::internal::texture::sampler_spec::{Filter, MipMode};
 
 use crate::lookup::bench::Rng;
-use crate::stage::{device, packed, render, render_on_oracle, scene, small};
+use crate::stage::{
+    device, packed, render, render_on_oracle, render_with, scene, small, sums_apart, unequal_batches,
+};
 
 /// This number of small triangles in front of the lecture's scene.
 fn crowd(count: usize) -> Scene {
@@ -31,7 +37,10 @@ fn crowd(count: usize) -> Scene {
 
 fn assert_as_the_oracle(scene: Scene, bound: f64, what: &str) {
     let packed = packed(scene, None);
-    let (film, exact) = (render(&packed), render_on_oracle(&packed));
+    assert_alike(&render(&packed), &render_on_oracle(&packed), bound, what);
+}
+
+fn assert_alike(film: &Film, exact: &Film, bound: f64, what: &str) {
     let pairs = film.pixels.iter().flatten().zip(exact.pixels.iter().flatten());
     let square = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>();
     let rmse = (square / (3 * film.pixels.len()) as f64).sqrt();
@@ -89,8 +98,69 @@ fn hundreds_of_lights_over_surfaces_without_backs() {
     assert_as_the_oracle(under_many_lights(500), 2e-3, "500 lights");
 }
 
+/// Renders with all samples of a pixel at once, however long that takes; returns the number of submissions, too.
+fn render_at_once(scene: &PackedScene) -> (Film, u32) {
+    let tuning = Tuning { samples_at_once: Some(scene.samples), ..Tuning::default() };
+    let (film, report) = render_with(scene, false, &tuning);
+    (film, report.slices)
+}
+
+/// Asserts that a device that ends loops takes what is left in further submissions, and that nothing is lost.
+fn assert_taken_in_parts(packed: &PackedScene, expected: &Film, bound: f64, what: &str) {
+    let (film, slices) = render_at_once(packed);
+    assert!(device().info().kind != DeviceKind::Cpu || slices > 4, "{what}: no loop was ended");
+    assert_alike(&film, expected, bound, what);
+}
+
 #[test]
-fn a_sample_that_alone_is_too_long_is_refused() {
+fn samples_whose_loops_the_device_ends_are_taken_in_parts() {
+    let mut scene = crowd(300);
+    (scene.width, scene.height) = (16, 12);
+    scene.sampling.spp = 256;
+    for filter in [PixelFilterKind::Box, PixelFilterKind::Mitchell] {
+        scene.pixel_filter = PixelFilter::new(filter, None);
+        let packed = packed(scene.clone(), None);
+        assert_taken_in_parts(&packed, &render_on_oracle(&packed), 2e-3, &format!("{filter:?}"));
+    }
+}
+
+#[test]
+fn samples_of_meshes_whose_loops_the_device_ends_are_taken_in_parts() {
+    let mut scene = scene("meshes");
+    (scene.width, scene.height) = (16, 12);
+    scene.sampling.spp = 1024;
+    let all_by_trees = packed(scene.clone(), None);
+    assert_taken_in_parts(&all_by_trees, &render(&all_by_trees), 1e-6, "all rays by trees");
+    scene.lights.clear();
+    scene.sampling.footprint = Footprint::None;
+    scene.sampling.spp = 1 << 16;
+    for material in &mut scene.materials {
+        material.model = Model::Unlit;
+    }
+    let in_passes = packed(scene, None);
+    assert_taken_in_parts(&in_passes, &render(&in_passes), 1e-5, "passes");
+}
+
+/// One sample tests 2000 triangles for a camera ray and as many for each shadow ray.
+#[test]
+fn batches_whose_loops_the_device_ends_are_taken_in_parts() {
+    let mut scene = crowd(2000);
+    (scene.width, scene.height) = (16, 12);
+    scene.sampling.spp = 128;
+    scene.sampling.pattern = Pattern::SobolOwen;
+    scene.sampling.algorithm = Algorithm::Adaptive;
+    let packed = packed(scene, None);
+    let batches = unequal_batches(&packed);
+    let few = sums_apart(&packed, &batches, &Tuning { samples_at_once: Some(1), ..Tuning::default() });
+    let many = sums_apart(&packed, &batches, &Tuning { samples_at_once: Some(128), ..Tuning::default() });
+    for (i, (a, b)) in few.iter().zip(&many).enumerate() {
+        let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(off <= 1e-4, "{:?}: {a:?}, {b:?}", batches[i]);
+    }
+}
+
+#[test]
+fn a_sample_that_alone_is_too_long_is_an_error() {
     let scene = packed(crowd(65_000), None);
     let told = render::render(&device(), scene, false, &Tuning::default(), &NoProgress);
     if device().info().kind == DeviceKind::Cpu {

@@ -13,9 +13,11 @@ use moire::internal::core::range::Rect;
 use moire::internal::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
 use moire::internal::oracle;
 use moire::internal::pack::{self, PackedScene};
-use moire::internal::render::{self, Report, Tuning};
+use moire::internal::render::{self, DeviceBackend, Report, Session, Tuning};
+use moire::internal::sampling::Backend;
 use moire::internal::scene::model::{Pattern, Scene};
 use moire::internal::scene::{self, prune::prune};
+use moire::internal::schema::layout::{BATCH_APART, PixelBatch};
 use moire::internal::texture::load::load;
 
 use crate::support::{data, untested};
@@ -146,6 +148,27 @@ pub fn render_with(scene: &PackedScene, keep_everything: bool, tuning: &Tuning) 
 
 pub fn render(scene: &PackedScene) -> Film {
     render_with(scene, false, &Tuning::default()).0
+}
+
+/// Returns batches of both halves of all pixels, of which neighbours have different numbers of samples.
+pub fn unequal_batches(scene: &PackedScene) -> Vec<PixelBatch> {
+    let [width, height] = scene.header.film_size.to_array();
+    let batch = |i: u32| PixelBatch {
+        place: PixelBatch::place_of(i / 2, width),
+        part: PixelBatch::part_of(i % 2) | BATCH_APART,
+        first: i % 3,
+        count: [1, 4, 8, 24, 33, 64, 96][i as usize % 7],
+    };
+    (0..2 * width * height).map(batch).collect()
+}
+
+/// Returns the sums of batches on the device.
+pub fn sums_apart(scene: &PackedScene, batches: &[PixelBatch], tuning: &Tuning) -> Vec<[f32; 4]> {
+    let gpu = device();
+    let session = Session::open(&gpu, scene.clone(), false, tuning).unwrap();
+    let prepared = session.prepare().unwrap();
+    let mut backend = DeviceBackend::new(&prepared).unwrap();
+    backend.sample_apart(batches, &NoProgress).unwrap()
 }
 
 pub fn render_on_oracle(scene: &PackedScene) -> Film {

@@ -104,11 +104,10 @@ uint triangles_above() {
 
 // Returns the first of as many words of shades, which are free now; NO_LIST if there are not as many.
 uint shade_words(const Header header, uint count) {
-    uint behind = cell_count(header) * CELL_WORDS;
-    uint words = behind + 2u + count_of_rooms(header) * MORE_WORDS;
+    if (words_behind(header) == 0u) return NO_LIST;
+    uint words = first_shade_word(header);
     uint end = uint(found.length());
-    if (end < behind + 2u) return NO_LIST;
-    uint taken = atomicAdd(found[behind + 1u], count);
+    uint taken = atomicAdd(found[behind_cells(header) + CELL_COUNTER_SHADES], count);
     uint most = end > words ? end - words : 0u;
     return taken <= most && count <= most - taken ? words + taken : NO_LIST;
 }

@@ -26,6 +26,7 @@ struct Survey {
     uint more;          // first word of its room for more, if it has any
     uint count;         // of triangles in its list
     float depth;        // no triangle that is not in the list is met up to here
+    bool is_full;       // triangles are left out
     float met[PROBES];  // where the probes meet the first triangle
 };
 
@@ -80,20 +81,50 @@ uint cell_count(const Header header) {
     return ((header.film_size.x + side - 1u) / side) * ((header.film_size.y + side - 1u) / side);
 }
 
-// The number of rooms for more, as far as the buffer has them.
-uint count_of_rooms(const Header header) {
-    uint cells = cell_count(header);
-    uint behind = uint(found.length()) - cells * CELL_WORDS;
-    return behind < 2u ? 0u : min((cells + CELLS_A_ROOM - 1u) / CELLS_A_ROOM, (behind - 2u) / MORE_WORDS);
+// What stands behind the cells, as far as the buffer has it.
+uint behind_cells(const Header header) { return cell_count(header) * CELL_WORDS; }
+
+uint words_behind(const Header header) {
+    uint words = uint(found.length()) - behind_cells(header);
+    return words < CELL_COUNTERS ? 0u : words - CELL_COUNTERS;
 }
+
+// Of each its number, and four cells.
+const uint DIVISION_WORDS = 1u + 4u * CELL_WORDS;
+
+uint count_of_divisions(const Header header) {
+    uint most = HOLDS_TRIANGLES ? (cell_count(header) + CELLS_A_DIVISION - 1u) / CELLS_A_DIVISION : 0u;
+    return min(most, words_behind(header) / DIVISION_WORDS);
+}
+
+uint count_of_rooms(const Header header) {
+    uint left = words_behind(header) - count_of_divisions(header) * DIVISION_WORDS;
+    return min((cell_count(header) + CELLS_A_ROOM - 1u) / CELLS_A_ROOM, left / MORE_WORDS);
+}
+
+uint first_division(const Header header) { return behind_cells(header) + CELL_COUNTERS; }
+uint first_quarter(const Header header, uint division) {
+    return first_division(header) + count_of_divisions(header) + 4u * CELL_WORDS * division;
+}
+uint first_room(const Header header) { return first_division(header) + count_of_divisions(header) * DIVISION_WORDS; }
+uint first_shade_word(const Header header) { return first_room(header) + count_of_rooms(header) * MORE_WORDS; }
 
 // Returns the first word of a room for more that is free now; NO_LIST if there is none.
 uint more_room(const Header header) {
     uint rooms = count_of_rooms(header);
     if (rooms == 0u) return NO_LIST;
-    uint behind = cell_count(header) * CELL_WORDS;
-    uint taken = atomicAdd(found[behind], 1u);
-    return taken < rooms ? behind + 2u + taken * MORE_WORDS : NO_LIST;
+    uint taken = atomicAdd(found[behind_cells(header) + CELL_COUNTER_ROOMS], 1u);
+    return taken < rooms ? first_room(header) + taken * MORE_WORDS : NO_LIST;
+}
+
+// Returns the first word of the quarters of a cell, which are surveyed later; NO_LIST if there is no room for them.
+uint divided(const Header header, uint cell) {
+    uint divisions = count_of_divisions(header);
+    if (divisions == 0u) return NO_LIST;
+    uint taken = atomicAdd(found[behind_cells(header) + CELL_COUNTER_DIVISIONS], 1u);
+    if (taken >= divisions) return NO_LIST;
+    found[first_division(header) + taken] = cell;
+    return first_quarter(header, taken);
 }
 
 // The word of a triangle in the list.
@@ -112,6 +143,7 @@ void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3
         survey.count++;
     } else {
         // What is left out may be met from here on.
+        survey.is_full = true;
         survey.depth = min(survey.depth, depth_in(header, cell, min(min(a, b), c), max(max(a, b), c)));
     }
     float farthest = 0.0;

@@ -87,6 +87,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::MeshSearch
         | C::HoldsTriangles
         | C::ListsShades
+        | C::LoopsEnd
         | C::OpaqueUniforms
         | C::MipChannels
         | C::MipComponentBytes

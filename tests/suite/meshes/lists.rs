@@ -3,13 +3,16 @@
 
 use glam::DVec3;
 use moire::internal::core::range::Rect;
+use moire::internal::gpu::DeviceKind;
 use moire::internal::lab::metrics::compare;
 use moire::internal::pack::features::bounces;
 use moire::internal::render::Tuning;
 use moire::internal::scene::model::{Algorithm, Lens, Light, Model, Pattern, Precision, Projection, Scene};
-use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED_WITH_MESHES, MAX_MORE_LISTED};
+use moire::internal::schema::layout::{CELL_DIVIDED, CELL_WORDS, MAX_LISTED_WITH_MESHES, MAX_MORE_LISTED};
 
-use crate::stage::{assert_same_bits, packed, render, render_with, small};
+use crate::stage::{
+    assert_same_bits, device, packed, render, render_with, small, sums_apart, unequal_batches,
+};
 use crate::tile_culling::{assert_same, culls_tiles, without};
 
 /// A knot of 2304 triangles on a plane beside a sign, with lights.
@@ -46,6 +49,8 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
     let is_full = |cell: &&&[u32]| listed(cell) >= MAX_LISTED_WITH_MESHES && f32::from_bits(cell[3]) < 1e30;
     assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
     assert!(cells.iter().any(|cell| listed(cell) > MAX_LISTED_WITH_MESHES), "no cell has room for more");
+    let is_cpu = device().info().kind == DeviceKind::Cpu;
+    assert!(!is_cpu || cells.iter().any(|cell| cell[1] == CELL_DIVIDED), "no cell is divided");
     assert_same_bits(&film, &render(&without(&scene)), "full lists");
 }
 
@@ -63,6 +68,27 @@ fn any_number_of_samples_is_the_same_with_and_without_lists() {
         let packed = packed(scene.clone(), Some(Rect { x: 3, y: 5, width: 51, height: 37 }));
         assert!(packed.culls_tiles() && !bounces(&packed));
         assert_same_bits(&render(&packed), &render(&without(&packed)), &format!("{spp} samples"));
+    }
+}
+
+/// Neighbouring threads take different numbers of samples, by several passes on some devices.
+#[test]
+fn batches_of_unequal_counts_are_the_same_with_and_without_lists() {
+    let mut scene = knot(32, 64);
+    scene.lights.clear();
+    for material in &mut scene.materials {
+        material.model = Model::Unlit;
+    }
+    scene.sampling.pattern = Pattern::SobolOwen;
+    scene.sampling.algorithm = Algorithm::Adaptive;
+    let packed = packed(scene, None);
+    assert!(packed.culls_tiles() && !bounces(&packed));
+    let batches = unequal_batches(&packed);
+    let tuning = Tuning::default();
+    let [listed, unlisted] =
+        [packed.clone(), without(&packed)].map(|scene| sums_apart(&scene, &batches, &tuning));
+    for (i, (a, b)) in listed.iter().zip(&unlisted).enumerate() {
+        assert_eq!(a.map(f32::to_bits), b.map(f32::to_bits), "{:?}: {a:?}, {b:?}", batches[i]);
     }
 }
 
