@@ -2,7 +2,43 @@
 #ifndef FILM_SUMS_GLSL
 #define FILM_SUMS_GLSL
 
+#include "tile_culling.glsl"
+#include "pixel_filter.glsl"
+#include "quantities.glsl"
 #include "slice.glsl"
+
+// Long sums are divided into blocks: a block's samples are added directly, the blocks with compensation.
+uint block_of(uint count) { return count > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN; }
+
+// Cells say where the background alone is seen, which is the same for all samples.
+const bool BACKGROUND_IS_SUMMED = TILE_CULLED && !SIGNED && !MEASURES && !DIAGNOSED;
+
+bool is_empty(uint list) {
+    if (list == NO_LIST) return false;
+    return tile_lists[list + 1u] == CELL_EMPTY;
+}
+
+// The sum of the samples of a pixel that sees the background alone, rounded as if each were taken; and of a batch.
+void sum_background(const Header header, uint count, out vec3 sum, out vec3 lost, out float squares) {
+    float square = dot3(header.background, header.background) * (1.0 / 3.0);
+    uint block = BLOCKS ? block_of(count) : count;
+    sum = vec3(0.0);
+    lost = vec3(0.0);
+    squares = 0.0;
+    uint left = count;
+    while (left > 0u) {
+        vec3 part = vec3(0.0);
+        for (uint k = min(left, block); k > 0u; k--) {
+            part += header.background;
+            squares += square;
+        }
+        vec3 term = part - lost;
+        vec3 total = sum + term;
+        lost = (total - sum) - term;
+        sum = total;
+        left -= min(left, block);
+    }
+}
 
 // `lost`: the part that rounding has added to the sum. `signs`: the sum of the samples' signs; `negative`: of those with a
 // negative one, without the sign.

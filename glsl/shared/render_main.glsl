@@ -56,34 +56,6 @@ Task batch_task(const Header header) {
     return Task(place, part, first_sample(), first_sample() + sample_count());
 }
 
-// Long sums are divided into blocks: a block's samples are added directly, the blocks with compensation.
-uint block_of(const Task task) { return task.end - task.first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN; }
-
-// Cells say where the background alone is seen, which is the same for all samples.
-const bool BACKGROUND_IS_SUMMED = TILE_CULLED && !SIGNED && !MEASURES && !DIAGNOSED;
-
-// The sum of the samples of a pixel that sees the background alone, rounded as if each were taken.
-void sum_background(const Header header, const Task task, out vec3 sum, out vec3 lost, out float squares) {
-    float square = dot3(header.background, header.background) * (1.0 / 3.0);
-    uint block = BLOCKS ? block_of(task) : task.end - task.first;
-    sum = vec3(0.0);
-    lost = vec3(0.0);
-    squares = 0.0;
-    uint left = task.end - task.first;
-    while (left > 0u) {
-        vec3 part = vec3(0.0);
-        for (uint k = min(left, block); k > 0u; k--) {
-            part += header.background;
-            squares += square;
-        }
-        vec3 term = part - lost;
-        vec3 total = sum + term;
-        lost = (total - sum) - term;
-        sum = total;
-        left -= min(left, block);
-    }
-}
-
 void main() {
     Header header = load_header();
     preload_records();
@@ -128,7 +100,7 @@ void main() {
             }
         }
         if (BACKGROUND_IS_SUMMED) {
-            if (candidates.list != NO_LIST) sees_nothing = tile_lists[candidates.list + 1u] == CELL_EMPTY;
+            sees_nothing = is_empty(candidates.list);
             if (sees_nothing) end = task.first;
         }
     }
@@ -146,7 +118,7 @@ void main() {
     path.is_alive = false;
     // No do-while: lavapipe (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after
     // its body.
-    uint block = block_of(task);
+    uint block = block_of(task.end - task.first);
     vec3 lost = vec3(0.0); // the part that rounding has added to the sum
     uint stop = s;
     vec3 part;
@@ -205,7 +177,7 @@ void main() {
         }
     }
     if (BACKGROUND_IS_SUMMED) {
-        if (sees_nothing) sum_background(header, task, sum, lost, squares);
+        if (sees_nothing) sum_background(header, task.end - task.first, sum, lost, squares);
     }
     report_notices();
 

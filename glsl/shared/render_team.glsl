@@ -11,6 +11,9 @@ const uint TEAM_PIXELS = TEAM / TEAM_SQUARES; // of a square, at once
 
 shared vec3 team_radiance[TEAM];
 
+// In place of whether a pixel is left out: its sum is in the film.
+const uint TEAM_SUMMED = 2u;
+
 // Finds the work of the thread's own pixel: lists, or whether there is any.
 void begin_for_team(const Header header, uvec2 place, uint member) {
     bool is_there = in_film(header, place);
@@ -21,6 +24,16 @@ void begin_for_team(const Header header, uvec2 place, uint member) {
         gather_for_team(header, pixel, member, candidates);
         barrier();
         if (SHADES) gather_shades_for_team(header, pixel, member, candidates);
+        if (BACKGROUND_IS_SUMMED) {
+            if (is_there && is_empty(candidates.list)) {
+                vec3 sum;
+                vec3 lost;
+                float squares;
+                sum_background(header, sample_count(), sum, lost, squares);
+                add_to_film(header, film_index(header, place), sum, lost, 0.0, vec3(0.0));
+                team_left_out[member] = TEAM_SUMMED;
+            }
+        }
         if (!is_there) team_left_out[member] = 1u;
     } else {
         team_left_out[member] = 1u;
@@ -69,7 +82,7 @@ void render_as_team(const Header header) {
         vec3 sum = vec3(0.0);
         vec3 lost = vec3(0.0);
         vec3 part = vec3(0.0);
-        uint block = end - first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN;
+        uint block = block_of(end - first);
         uint stop = BLOCKS ? min(first + block, end) : end;
         for (uint start = first; start < end && !is_done; start += TEAM_SAMPLES) {
             uint s = start + turn;
@@ -116,7 +129,7 @@ void render_as_team(const Header header) {
             if (unfinished && is_seen) team_left_out[member] = 1u;
             barrier();
         }
-        if (turn == 0u && in_film(header, place)) {
+        if (turn == 0u && in_film(header, place) && team_left_out[member] != TEAM_SUMMED) {
             uint at = film_index(header, place);
             if (!TEAMED) {
                 if (is_seen) add_to_film(header, at, sum, lost, 0.0, vec3(0.0));

@@ -28,7 +28,7 @@ uint shade_texels[SHADE_ROOM];
 uint shades = 0u;
 
 // The first word of the shades of a pixel's cell; NO_LIST if not all are known.
-uint cell_shades(uint list) { return tile_lists[list + CELL_SHADES]; }
+uint cell_shades(uint list) { return list == NO_LIST ? NO_LIST : tile_lists[list + CELL_SHADES]; }
 
 bool has_shades(uint first) { return first != NO_LIST && first != NO_SHADES; }
 
