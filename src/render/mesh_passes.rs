@@ -24,7 +24,7 @@ pub fn passes(
     let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
     match (has_lists && !bounces(scene), Tuning::holds_triangles(device)) {
         (true, true) if lists_shades => &[SEARCH_FEW, SEARCH_MORE, SEARCH_MANY, SEARCH_REST],
-        (true, true) => &[SEARCH_FEW, SEARCH_MORE, SEARCH_MANY, SEARCH_REST],
+        (true, true) => &[SEARCH_FEW, SEARCH_MANY, SEARCH_REST],
         (true, false) if samples_by_teams(scene, features, lists_shades) => &[SEARCH_TEAM, SEARCH_TEAM_REST],
         _ => &[SEARCH_ALL],
     }
