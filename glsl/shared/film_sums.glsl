@@ -18,8 +18,9 @@ bool is_empty(uint list) {
     return tile_lists[list + 1u] == CELL_EMPTY;
 }
 
-// The sum of the samples of a pixel that sees the background alone, rounded as if each were taken; and of a batch.
-void sum_background(const Header header, uint count, out vec3 sum, out vec3 lost, out float squares) {
+// The sum of the samples of a pixel that sees the background alone, rounded as if each were taken from `begun` on; and of a
+// batch.
+void sum_background(const Header header, uint count, vec3 begun, out vec3 sum, out vec3 lost, out float squares) {
     float square = dot3(header.background, header.background) * (1.0 / 3.0);
     uint block = BLOCKS ? block_of(count) : count;
     sum = vec3(0.0);
@@ -27,7 +28,7 @@ void sum_background(const Header header, uint count, out vec3 sum, out vec3 lost
     squares = 0.0;
     uint left = count;
     while (left > 0u) {
-        vec3 part = vec3(0.0);
+        vec3 part = left == count ? begun : vec3(0.0);
         for (uint k = min(left, block); k > 0u; k--) {
             part += header.background;
             squares += square;
@@ -56,9 +57,9 @@ void add_to_film(const Header header, uint at, vec3 sum, vec3 lost, float signs,
         if (SIGNED) signs += film[at].w;
         sum = total;
     }
-    // A block that had to be divided.
+    // The rest of samples that had to be divided; a short sum begins with what is there.
     if (!COMPENSATED && LOOPS_END && first_sample() > 0u) {
-        sum += film[at].xyz;
+        if (BLOCKS) sum += film[at].xyz;
         signs += film[at].w;
     }
     if (COMPENSATED) film[at + pixels] = vec4(lost, 0.0);

@@ -121,6 +121,10 @@ void main() {
     uint block = block_of(task.end - task.first);
     vec3 lost = vec3(0.0); // the part that rounding has added to the sum
     uint stop = s;
+    vec3 begun = vec3(0.0);
+    if (LOOPS_END && !BLOCKS && !COMPENSATED && !is_batch) {
+        if (first_sample() > 0u) begun = film[at].xyz;
+    }
     vec3 part;
     while (true) {
         // Groups divide a block. In these places a condition in place of the choices would have lavapipe (Mesa 22.3.6) add the
@@ -128,7 +132,7 @@ void main() {
         bool begins = !GROUPED || s == stop;
         uint block_end = BLOCKS ? min(s + block, end) : end;
         stop = begins ? block_end : stop;
-        part = begins ? vec3(0.0) : part;
+        part = begins ? begun : part;
         uint start = s;
         uint until = stop;
         if (GROUPED) {
@@ -177,7 +181,7 @@ void main() {
         }
     }
     if (BACKGROUND_IS_SUMMED) {
-        if (sees_nothing) sum_background(header, task.end - task.first, sum, lost, squares);
+        if (sees_nothing) sum_background(header, task.end - task.first, begun, sum, lost, squares);
     }
     report_notices();
 

@@ -29,7 +29,7 @@ void begin_for_team(const Header header, uvec2 place, uint member) {
                 vec3 sum;
                 vec3 lost;
                 float squares;
-                sum_background(header, sample_count(), sum, lost, squares);
+                sum_background(header, sample_count(), vec3(0.0), sum, lost, squares);
                 add_to_film(header, film_index(header, place), sum, lost, 0.0, vec3(0.0));
                 team_left_out[member] = TEAM_SUMMED;
             }

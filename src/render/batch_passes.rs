@@ -1,8 +1,11 @@
 //! Takes lists of batches by the passes of a scene. Input: batches, and the film to which their sums go. Output: none of them
 //! is left, or which ones one pass leaves. What the last pass leaves, as its loops were ended, is taken again in halves.
 
+use std::iter::{once, repeat_n};
+
 use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
 use super::sample_pipeline::SamplePipeline;
+use super::unfinished::NOWHERE;
 use super::unfinished_list::too_long;
 use super::{Report, Resources};
 use crate::core::error::{Error, Result};
@@ -60,25 +63,18 @@ impl Batches<'_> {
     }
 }
 
-/// Returns the halves of batches, the second one empty if there is a single sample: threads beside it may have had more. Fails if
-/// none has more.
-pub fn halves<'b>(
-    gpu: &Gpu,
-    batches: impl Iterator<Item = &'b PixelBatch> + Clone,
-    first_row: u32,
-) -> Result<Vec<[PixelBatch; 2]>> {
-    if let Some(batch) = batches.clone().next()
-        && batches.clone().all(|batch| batch.count == 1)
-    {
-        let [x, y] = batch.column_and_row();
-        return Err(too_long(gpu, [x, y + first_row]));
+/// Returns the halves of batches, of which the second one is empty if there is a single sample: threads beside it may have had
+/// more. If none has more, returns `None`: each has to be alone in its workgroup.
+pub fn halves<'b>(batches: impl Iterator<Item = &'b PixelBatch> + Clone) -> Option<Vec<[PixelBatch; 2]>> {
+    if batches.clone().all(|batch| batch.count == 1) {
+        return None;
     }
     let of = |batch: &PixelBatch| {
         let half = batch.count.div_ceil(2);
         let second = PixelBatch { first: batch.first + half, count: batch.count - half, ..*batch };
         [PixelBatch { count: half, ..*batch }, second]
     };
-    Ok(batches.map(of).collect())
+    Some(batches.map(of).collect())
 }
 
 /// A film of batches, with the push constants of its submissions.
@@ -95,6 +91,8 @@ pub struct BatchPasses<'a> {
     pipeline: &'a SamplePipeline,
     /// Of the film.
     width: u32,
+    /// Its corner in the picture.
+    corner: [u32; 2],
     /// Samples of the next submission, learnt from the previous ones.
     next: f64,
 }
@@ -105,8 +103,9 @@ impl<'a> BatchPasses<'a> {
         pipeline: &'a SamplePipeline,
         resources: &'a Resources,
         width: u32,
+        corner: [u32; 2],
     ) -> BatchPasses<'a> {
-        BatchPasses { gpu, resources, pipeline, width, next: FIRST_SAMPLES }
+        BatchPasses { gpu, resources, pipeline, width, corner, next: FIRST_SAMPLES }
     }
 
     /// Returns the index of the last pass.
@@ -152,7 +151,11 @@ impl<'a> BatchPasses<'a> {
         if batches.is_empty() {
             return Ok(());
         }
-        let pairs = halves(self.gpu, batches.iter(), film.slice.band_y)?;
+        let Some(pairs) = halves(batches.iter()) else {
+            let alone = self.apart(batches);
+            let left = self.pass(self.last(), film, &Batches::List(&alone), report, progress)?;
+            return left.first().map_or(Ok(()), |batch| Err(self.too_long(film, batch)));
+        };
         for half in [0, 1] {
             let part: Vec<PixelBatch> =
                 pairs.iter().map(|pair| pair[half]).filter(|batch| batch.count > 0).collect();
@@ -160,6 +163,19 @@ impl<'a> BatchPasses<'a> {
             self.in_parts(film, &left, report, progress)?;
         }
         Ok(())
+    }
+
+    /// Returns the batches, each followed by as many without a pixel as fill its workgroup.
+    pub fn apart(&self, batches: &[PixelBatch]) -> Vec<PixelBatch> {
+        let threads = BATCHES_PER_TILE / self.pipeline.groups_per_tile as usize;
+        let nothing = PixelBatch { place: NOWHERE, ..PixelBatch::default() };
+        batches.iter().flat_map(|&batch| once(batch).chain(repeat_n(nothing, threads - 1))).collect()
+    }
+
+    /// Returns the error of a batch of one sample that is left when it is alone.
+    pub fn too_long(&self, film: &BatchFilm, batch: &PixelBatch) -> Error {
+        let ([left, top], [x, y]) = (self.corner, batch.column_and_row());
+        too_long(self.gpu, [left + x, top + film.slice.band_y + y])
     }
 
     /// Takes batches by one pass; returns those that it leaves.

@@ -63,7 +63,7 @@ impl<'a> BatchSampler<'a> {
         let pages = Rect::whole([width, height]).strips(rows).map(page).collect::<Result<Vec<_>>>()?;
         Ok(BatchSampler {
             gpu,
-            passes: BatchPasses::new(gpu, pipeline, resources, width),
+            passes: BatchPasses::new(gpu, pipeline, resources, width, scene.header.crop.to_array()),
             pages,
             size: [width, height],
             mean_sign: scene.mean_sign,
@@ -119,6 +119,34 @@ impl<'a> BatchSampler<'a> {
             Ok(sums)
         };
         Ok(((0..planes).map(read).collect::<Result<_>>()?, left))
+    }
+
+    /// Adds parts of one sample to the sums of their batches, each part in a workgroup of its own.
+    fn parts_alone(
+        &mut self,
+        parts: &[Part],
+        sums: &mut [[[f64; 4]; 3]],
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        for part in parts {
+            let apart = self.passes.apart(&[part.1]);
+            let list: Vec<Part> = apart.into_iter().map(|batch| (part.0, batch)).collect();
+            let (planes, left) = self.parts_apart(self.passes.last(), &list, report, progress)?;
+            if !left.is_empty() {
+                let film = film_of(Rect::whole(self.size), self.pages[0].film.buffer.clone());
+                return Err(self.passes.too_long(&film, &part.1));
+            }
+            add(&mut sums[part.0], &planes, 0);
+        }
+        Ok(())
+    }
+}
+
+/// Adds one entry of the planes.
+fn add(sums: &mut [[f64; 4]; 3], planes: &Planes, entry: usize) {
+    for (sum, plane) in sums.iter_mut().zip(planes) {
+        (0..4).for_each(|c| sum[c] += f64::from(plane[entry][c]));
     }
 }
 
@@ -210,18 +238,24 @@ impl BatchSampler<'_> {
                 unfinished.iter().for_each(|&at| is_left[at as usize] = true);
                 for (at, &(i, batch)) in parts.iter().enumerate() {
                     if !is_left[at] {
-                        for (sum, plane) in sums[i].iter_mut().zip(&planes) {
-                            (0..4).for_each(|c| sum[c] += f64::from(plane[at][c]));
-                        }
+                        add(&mut sums[i], &planes, at);
                     } else {
                         left.push((i, batch));
                     }
                 }
             }
-            if pass == self.passes.last() {
-                let pairs = halves(self.gpu, left.iter().map(|(_, batch)| batch), 0)?;
-                let of = left.iter().zip(pairs).flat_map(|(&(i, _), pair)| pair.map(|half| (i, half)));
-                left = of.filter(|(_, half)| half.count > 0).collect();
+            if pass == self.passes.last() && !left.is_empty() {
+                left = match halves(left.iter().map(|(_, batch)| batch)) {
+                    Some(pairs) => {
+                        let of =
+                            left.iter().zip(pairs).flat_map(|(&(i, _), pair)| pair.map(|half| (i, half)));
+                        of.filter(|(_, half)| half.count > 0).collect()
+                    }
+                    None => {
+                        self.parts_alone(&left, &mut sums, report, progress)?;
+                        Vec::new()
+                    }
+                };
             }
             parts = left;
             pass = self.passes.last().min(pass + 1);

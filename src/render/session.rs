@@ -181,10 +181,18 @@ impl<'a> Session<'a> {
         let (pipelines, groups_per_tile) = self.pipelines(scene, features, shader)?;
         let film = self.film(scene, features)?;
         let [x, y] = self.tuning.group_size(self.gpu.info())?;
+        let corner = scene.header.crop.to_array();
         let rest = match (&self.resources.unfinished, pipelines.get(1)) {
             (Some(unfinished), _) => {
-                let pixels =
-                    UnfinishedPixels::new(self.gpu, &self.resources, shader, &pipelines, x * y, &film)?;
+                let pixels = UnfinishedPixels::new(
+                    self.gpu,
+                    &self.resources,
+                    shader,
+                    &pipelines,
+                    x * y,
+                    &film,
+                    corner,
+                )?;
                 Rest::Lists(unfinished.clone(), pixels)
             }
             (None, Some(second)) => Rest::Tiles(second.clone()),

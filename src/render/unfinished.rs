@@ -1,8 +1,10 @@
 //! Takes the samples of the pixels that the first pass of a renderer leaves unfinished, pass by pass. Input: a band of the
 //! film and a range of samples. Output: their sums in the film. Each pass takes a list of pixels and no others: where lanes
 //! of finished pixels wait for the others, these would cost as much. What the last pass leaves, as its loops were ended, it
-//! takes again with half as many samples at once.
+//! takes again with half as many samples at once; and where one is too much, as threads of a subgroup share the limit, by
+//! workgroups of one pixel.
 
+use std::iter::{once, repeat_n};
 use std::sync::Arc;
 
 use super::film_buffer::{Band, FilmBuffer};
@@ -17,6 +19,9 @@ use crate::schema::layout::{PixelBatch, Slice, TILE};
 /// Pixels that one submission takes: as many as a tile has.
 const AT_ONCE: usize = (TILE * TILE) as usize;
 
+/// A place outside of any film.
+pub const NOWHERE: u32 = u32::MAX;
+
 /// Side of the squares whose pixels follow each other in a list.
 const BLOCK: u32 = 8;
 
@@ -30,6 +35,8 @@ pub struct UnfinishedPixels {
     group: BindGroup,
     threads_per_group: u32,
     film: Arc<FilmBuffer>,
+    /// Corner of the film in the picture.
+    corner: [u32; 2],
 }
 
 /// Some samples of pixels of a band.
@@ -50,13 +57,14 @@ impl UnfinishedPixels {
         pipelines: &[Arc<Pipeline>],
         threads_per_group: u32,
         film: &Arc<FilmBuffer>,
+        corner: [u32; 2],
     ) -> Result<UnfinishedPixels> {
         let last = pipelines.last().ok_or_else(|| Error::new("a renderer without a pass"))?.clone();
         let bytes = (AT_ONCE * size_of::<PixelBatch>()) as u64;
         let list = gpu.buffer("unfinished pixels", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &last, shader, &film.buffer, Some(&list))?;
         let later = pipelines[1..].to_vec();
-        Ok(UnfinishedPixels { later, last, list, group, threads_per_group, film: film.clone() })
+        Ok(UnfinishedPixels { later, last, list, group, threads_per_group, film: film.clone(), corner })
     }
 
     /// Runs each later pipeline on a list without pixels, so that lazy compilation in the driver happens now.
@@ -92,16 +100,32 @@ impl UnfinishedPixels {
 
     /// Takes the samples in two parts, one after the other, and each of these likewise if it must be.
     fn sample_in_parts(&self, run: &mut Run, pixels: &[u32], [first, count]: [u32; 2]) -> Result<()> {
-        let Some(place) = pixels.first() else { return Ok(()) };
+        if pixels.is_empty() {
+            return Ok(());
+        }
         let half = count / 2;
         if half == 0 {
-            return Err(too_long(run.gpu, [place & 0xFFFF, (place >> 16) + run.band.y]));
+            let apart = self.apart(pixels);
+            let left = self.sample(run, &self.last, &apart, [first, count])?;
+            return match left.first() {
+                Some(place) => {
+                    let [x, y] = self.corner;
+                    Err(too_long(run.gpu, [x + (place & 0xFFFF), y + (place >> 16) + run.band.y]))
+                }
+                None => Ok(()),
+            };
         }
         for part in [[first, half], [first + half, count - half]] {
             let left = self.sample(run, &self.last, pixels, part)?;
             self.sample_in_parts(run, &left, part)?;
         }
         Ok(())
+    }
+
+    /// Returns the pixels, each followed by as many places outside of the film as fill its workgroup.
+    fn apart(&self, pixels: &[u32]) -> Vec<u32> {
+        let rest = self.threads_per_group as usize - 1;
+        pixels.iter().flat_map(|&place| once(place).chain(repeat_n(NOWHERE, rest))).collect()
     }
 
     /// Takes samples of pixels by their places; returns those that are left unfinished.

@@ -1,6 +1,7 @@
 //! Scenes with long loops: Mesa's CPU driver ends all loops of a thread after 65 535 iterations, so
 //! that threads take fewer samples at once.
 
+use std::fmt::Write;
 use std::path::Path;
 
 use moire::internal::core::film::Film;
@@ -13,6 +14,8 @@ use moire::internal::scene::model::{
 };
 use moire::internal::scene::parse;
 use moire::internal::texture::sampler_spec::{Filter, MipMode};
+
+use tempfile::tempdir;
 
 use crate::lookup::bench::Rng;
 use crate::stage::{
@@ -157,6 +160,31 @@ fn batches_whose_loops_the_device_ends_are_taken_in_parts() {
         let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         assert!(off <= 1e-4, "{:?}: {a:?}, {b:?}", batches[i]);
     }
+}
+
+/// A heap of 30 000 large triangles through each of which most light passes: one sample of eight neighbouring pixels turns too
+/// often, that of one pixel does not.
+#[test]
+fn a_sample_that_is_too_long_beside_others_is_taken_alone() {
+    let mut rng = Rng::new(1);
+    let mut model = String::new();
+    for i in 0..30_000 {
+        let middle: [f64; 3] = std::array::from_fn(|_| rng.between(-1.0, 1.0));
+        for _ in 0..3 {
+            let [x, y, z] = middle.map(|m| m + rng.between(-0.3, 0.3));
+            writeln!(model, "v {x:.4} {y:.4} {z:.4}").unwrap();
+        }
+        writeln!(model, "f {} {} {}", 3 * i + 1, 3 * i + 2, 3 * i + 3).unwrap();
+    }
+    let folder = tempdir().unwrap();
+    std::fs::write(folder.path().join("heap.obj"), model).unwrap();
+    let text = "camera = { eye = [0.3, 0.2, 4.0], look_at = [0, 0, -1], vertical_fov = 40 }\n\
+                image = { width = 16, height = 12 }\nsampling = { spp = 1 }\n\
+                [background]\ncolor = [0.2, 0.3, 0.5]\n\
+                [[material]]\nname = 'm'\nmodel = 'unlit'\ncolor = [0.5, 0.2, 0.1]\nalpha = 'blend'\nopacity = 0.01\n\
+                [[mesh]]\nfile = 'heap.obj'\nmaterial = 'm'\n";
+    let scene = parse(&folder.path().join("heap.toml"), text).unwrap();
+    assert_as_the_oracle(scene, 2e-3, "a heap");
 }
 
 #[test]
