@@ -33,7 +33,11 @@ impl Session<'_> {
                     .and_then(|shader| self.pipelines(scene, features, shader));
             }
         };
-        rayon::join(|| TileCulling::new(self.gpu, scene, &self.resources, features), ahead).0
+        // Not by the pool's threads: one that waits for the device could keep the thread that has it from the pool.
+        std::thread::scope(|threads| {
+            threads.spawn(ahead);
+            TileCulling::new(self.gpu, scene, &self.resources, features)
+        })
     }
 
     /// Returns the pipelines of the passes by which tiles are rendered.
