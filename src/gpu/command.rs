@@ -2,6 +2,7 @@
 //! recording, returns its run time once the device has finished. A closing barrier makes all writes
 //! visible to later submissions and to the host.
 
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -73,13 +74,27 @@ impl Commands {
         name: &str,
         record: impl FnOnce(&ash::Device, vk::CommandBuffer),
     ) -> Result<RunTime> {
+        self.run_beside(name, record, || ())
+    }
+
+    /// Runs as [`Commands::run`] does, and does work of the host while the device is busy. The host must not touch
+    /// what the device writes.
+    pub(super) fn run_beside(
+        &mut self,
+        name: &str,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+        host: impl FnOnce(),
+    ) -> Result<RunTime> {
         if self.core.is_hung() {
             return Err(device_lost(&format!("`{name}`: the device does not answer since an earlier call")));
         }
         let start = Instant::now();
         self.record(record).during(|| format!("recording `{name}`"))?;
         self.submit().during(|| format!("submitting `{name}`"))?;
+        // Waited for in any case: else the device would still write what a panic frees.
+        let done = panic::catch_unwind(AssertUnwindSafe(host));
         self.wait(name)?;
+        done.unwrap_or_else(|payload| panic::resume_unwind(payload));
         let wall_seconds = start.elapsed().as_secs_f64();
         let device_seconds = match &self.timestamps {
             Some(timestamps) => timestamps.seconds().during(|| format!("reading the times of `{name}`"))?,

@@ -149,6 +149,21 @@ impl Gpu {
         readback::from_buffer(&mut staging, &mut commands, buffer, offset, out)
     }
 
+    /// Passes parts of a buffer that begin at `starts`, each of `bytes` bytes, to `each`: some bytes of all parts at a
+    /// time, in order, whole multiples of `unit`. While `each` works, the next ones are copied. It must not use the
+    /// device.
+    pub fn read_parts(
+        &self,
+        buffer: &Buffer,
+        starts: &[u64],
+        [bytes, unit]: [usize; 2],
+        each: &mut dyn FnMut(&[&[u8]]),
+    ) -> Result<()> {
+        self.owns(buffer.core(), buffer.name())?;
+        let (mut staging, mut commands) = (lock(&self.staging), lock(&self.commands));
+        readback::parts(&mut staging, &mut commands, buffer, starts, [bytes, unit], each)
+    }
+
     /// Copies bytes from one buffer into another.
     pub fn copy_buffer(&self, from: &Buffer, start: u64, to: &Buffer, at: u64, bytes: u64) -> Result<()> {
         self.owns(from.core(), from.name())?;

@@ -1,12 +1,24 @@
-//! Reads back bytes of a buffer: from memory of the host directly, else chunk by chunk through the staging buffer.
+//! Reads back bytes of a buffer: from memory of the host directly, else chunk by chunk through the staging buffer, of
+//! which one half is read while the device writes the other.
+
+use std::ops::Range;
 
 use ash::vk;
+use rayon::prelude::*;
 
 use super::buffer::Buffer;
 use super::command::Commands;
-use super::staging::{STAGING_BYTES, Staging};
+use super::staging::Staging;
 use crate::core::error::Result;
 
+/// The largest size of one half of the staging buffer: enough that the time of a submission does not show.
+const HALF_BYTES: usize = 4 << 20;
+/// Less is copied at once.
+const SMALLEST_CHUNK: usize = 256 << 10;
+/// Bytes that a thread copies at once.
+const AT_ONCE: usize = 1 << 20;
+
+/// Reads the bytes from `offset` on.
 pub(super) fn from_buffer(
     staging: &mut Staging,
     commands: &mut Commands,
@@ -14,24 +26,67 @@ pub(super) fn from_buffer(
     offset: u64,
     out: &mut [u8],
 ) -> Result<()> {
-    buffer.check_range(offset, out.len())?;
-    if let Some(bytes) = buffer.host_bytes(commands) {
-        out.copy_from_slice(&bytes[offset as usize..][..out.len()]);
+    let mut done = 0;
+    parts(staging, commands, buffer, &[offset], [out.len(), 1], &mut |read| {
+        let read = read[0];
+        let target = &mut out[done..][..read.len()];
+        done += read.len();
+        if read.len() <= AT_ONCE {
+            return target.copy_from_slice(read);
+        }
+        let both = target.par_chunks_mut(AT_ONCE).zip(read.par_chunks(AT_ONCE));
+        both.for_each(|(target, read)| target.copy_from_slice(read));
+    })
+}
+
+/// Passes parts that begin at `starts`, each of `bytes` bytes, to `each`: some bytes of all parts at a time, in order,
+/// whole multiples of `unit`.
+pub(super) fn parts(
+    staging: &mut Staging,
+    commands: &mut Commands,
+    buffer: &Buffer,
+    starts: &[u64],
+    [bytes, unit]: [usize; 2],
+    each: &mut dyn FnMut(&[&[u8]]),
+) -> Result<()> {
+    starts.iter().try_for_each(|&start| buffer.check_range(start, bytes))?;
+    if bytes == 0 || starts.is_empty() {
         return Ok(());
     }
-    let mut src_offset = offset;
-    for chunk in out.chunks_mut(STAGING_BYTES) {
-        let target = staging.get(chunk.len())?;
-        let handle = target.handle();
-        let size = chunk.len() as u64;
-        let region = vk::BufferCopy { src_offset, dst_offset: 0, size };
-        commands.run(buffer.name(), |device, commands| {
-            // SAFETY: both ranges were checked; submissions are waited for one by one, each with
-            // a closing barrier that makes its writes visible to the host.
-            unsafe { device.cmd_copy_buffer(commands, buffer.handle(), handle, &[region]) };
-        })?;
-        chunk.copy_from_slice(&target.mapped()?[..chunk.len()]);
-        src_offset += size;
+    if let Some(all) = buffer.host_bytes(commands) {
+        let read: Vec<&[u8]> = starts.iter().map(|&start| &all[start as usize..][..bytes]).collect();
+        each(&read);
+        return Ok(());
     }
-    Ok(())
+    let step = (HALF_BYTES / starts.len()).min(bytes.div_ceil(2).max(SMALLEST_CHUNK)).next_multiple_of(unit);
+    let half = step * starts.len();
+    let target = staging.get(if step < bytes { 2 * half } else { bytes * starts.len() })?;
+    let handle = target.handle();
+    let mut previous: Option<Range<usize>> = None;
+    for (index, first) in (0..bytes).step_by(step).enumerate() {
+        let (base, size) = (index % 2 * half, step.min(bytes - first));
+        let region = |(part, start): (usize, &u64)| vk::BufferCopy {
+            src_offset: start + first as u64,
+            dst_offset: (base + part * size) as u64,
+            size: size as u64,
+        };
+        let regions: Vec<vk::BufferCopy> = starts.iter().enumerate().map(region).collect();
+        let ready = previous.replace(base..base + size * starts.len());
+        let ready = ready.map(|range| target.mapped().map(|bytes| &bytes[range])).transpose()?;
+        commands.run_beside(
+            buffer.name(),
+            // SAFETY: both ranges were checked, and the host reads no bytes but those of the other half; submissions are
+            // waited for one by one, each with a closing barrier that makes its writes visible to the host.
+            |device, commands| unsafe {
+                device.cmd_copy_buffer(commands, buffer.handle(), handle, &regions);
+            },
+            || ready.into_iter().for_each(|bytes| pass(bytes, starts.len(), each)),
+        )?;
+    }
+    previous.map_or(Ok(()), |range| Ok(pass(&target.mapped()?[range], starts.len(), each)))
+}
+
+/// Passes the bytes of so many parts of equal length, one behind the other.
+fn pass(bytes: &[u8], parts: usize, each: &mut dyn FnMut(&[&[u8]])) {
+    each(&bytes.chunks_exact(bytes.len() / parts).collect::<Vec<_>>());
 }

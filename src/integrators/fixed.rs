@@ -1,5 +1,5 @@
 //! The same number of samples in each pixel, or one cone. The picture is rendered in ranges of a few rows, whose sums
-//! become means at once: only one range's sums are in memory at a time.
+//! become means at once: at most one range's sums are in memory at a time.
 
 use super::{Integrated, Integrator};
 use crate::core::error::Result;
@@ -9,7 +9,7 @@ use crate::core::range::{Range, Rect};
 use crate::sampling::Backend;
 use crate::schema::layout::TILE;
 
-/// Pixels of a range, rounded to whole rows of tiles: 100 MB of sums, and few enough ranges that the submissions of each
+/// Pixels of a range, rounded to whole rows of tiles: 100 MB of sums where there are any, and few enough ranges that the submissions of each
 /// do not show on a fast device.
 const MAX_PIXELS: u32 = 1 << 22;
 
@@ -62,9 +62,7 @@ fn means(
     for pixels in Rect::whole([width, height]).strips(TILE * tiles.max(1)) {
         let done = |rows: u32| f64::from(rows) / f64::from(height);
         let part = SubProgress { whole: progress, from: done(pixels.y), to: done(pixels.y + pixels.height) };
-        let sums = backend.sum(&Range { pixels, samples: 0..samples }, &part)?;
-        sums.write_to(&mut film);
-        dropped += sums.dropped();
+        dropped += backend.means(&Range { pixels, samples: 0..samples }, &mut film, &part)?;
     }
     Ok((film, dropped))
 }

@@ -1,14 +1,13 @@
 //! A device as a backend: ranges, batches and beams of a prepared session. Input: an integrator's requests. Output:
 //! sums and resolved pixels, and at the end the statistics of the device.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::Report;
 use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::dispatch_plan::DispatchPlan;
-use super::film_buffer::FilmBuffer;
+use super::film_buffer::{Band, FilmBuffer};
 use super::plan::integrator;
 use super::session::{Prepared, Turn, Work};
 use super::tiles::TileRenderer;
@@ -16,6 +15,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
+use crate::gpu::Gpu;
 use crate::integrators::adaptive::Goal;
 use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun};
 use crate::schema::layout::PixelBatch;
@@ -131,15 +131,16 @@ impl<'p> DeviceBackend<'p> {
         Ok((batches, &mut self.report))
     }
 
-    fn sum_tiles(
+    /// Sums a range of samples band by band, and passes each band's sums to `read` while they are on the device.
+    fn sum_bands(
         &mut self,
-        renderer: &TileRenderer<'_>,
-        film: &Arc<FilmBuffer>,
         range: &Range,
         progress: &dyn Progress,
-    ) -> Result<FilmSums> {
+        mut read: impl FnMut(&Gpu, &FilmBuffer, &Band) -> Result<()>,
+    ) -> Result<()> {
+        self.check(&range.pixels, range.samples.end)?;
         let Prepared { session, scene, .. } = self.prepared;
-        let mut block = film.block(range.clone());
+        let (renderer, film) = self.tiles()?;
         let tiles = film.tiles(range.pixels);
         let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.samples_at_once, tiles);
         for band in film.bands(range.pixels) {
@@ -149,10 +150,19 @@ impl<'p> DeviceBackend<'p> {
             }
             renderer.tiles(&band, band.tiles, &mut plan, &mut self.report, progress)?;
             self.report.seconds.render += clock.elapsed().as_secs_f64();
-            film.read(session.gpu, &band, &mut block)?;
+            read(session.gpu, film, &band)?;
         }
         self.next = plan.next();
-        Ok(block.into())
+        Ok(())
+    }
+
+    fn tiles(&self) -> Result<(&'p TileRenderer<'p>, &'p FilmBuffer)> {
+        match &self.prepared.work {
+            Work::Tiles { renderer, film } => Ok((renderer, film)),
+            Work::Batches(_) | Work::Beams(..) => {
+                Err(Error::new("a scene that is packed for batches or beams has no sums of tiles"))
+            }
+        }
     }
 
     /// Fails unless the pixels are whole rows of the picture and the samples those for which the scene was packed.
@@ -184,14 +194,17 @@ impl Backend for DeviceBackend<'_> {
     }
 
     fn sum(&mut self, range: &Range, progress: &dyn Progress) -> Result<FilmSums> {
-        self.check(&range.pixels, range.samples.end)?;
-        let prepared = self.prepared;
-        match &prepared.work {
-            Work::Tiles { renderer, film } => self.sum_tiles(renderer, film, range, progress),
-            Work::Batches(_) | Work::Beams(..) => {
-                Err(Error::new("a scene that is packed for batches or beams has no sums of tiles"))
-            }
-        }
+        let mut block = self.tiles()?.1.block(range.clone());
+        self.sum_bands(range, progress, |gpu, film, band| film.read(gpu, band, &mut block))?;
+        Ok(block.into())
+    }
+
+    fn means(&mut self, range: &Range, film: &mut Film, progress: &dyn Progress) -> Result<f64> {
+        let mut dropped = 0.0;
+        self.sum_bands(range, progress, |gpu, sums, band| {
+            sums.read_means(gpu, band, range.depth(), film, &mut dropped)
+        })?;
+        Ok(dropped)
     }
 
     fn resolve(&mut self, pixels: Rect, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {

@@ -1,20 +1,24 @@
 //! The film on the device: sums of radiance, four floats per pixel, and as many more for compensated summation and for
 //! a pixel filter with negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile
-//! rows that share one buffer; each band is read back as sums.
+//! rows that share one buffer; each band is read back as sums, or as means right into a film of the host.
 
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelExtend, ParallelIterator};
+use rayon::prelude::*;
 
 use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 use crate::core::range::{Range, Rect};
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
-use crate::sampling::{Block, Signed};
+use crate::sampling::{Block, PixelSums, Signed};
+use crate::scene::model::Algorithm;
 use crate::schema::layout::{Slice, TILE};
 
 use super::dispatch_plan::tile_stride;
 
 const PIXEL_BYTES: u64 = 16;
+/// Pixels that a thread reads at once.
+const PIXELS_AT_ONCE: usize = 4096;
 /// Larger films gain nothing: on a CPU device this is host memory, on a GPU it is read back anyway.
 const MAX_BYTES_CPU: u64 = 64 << 20;
 const MAX_BYTES_GPU: u64 = 1 << 30;
@@ -28,6 +32,8 @@ pub struct FilmBuffer {
     /// The mean of the samples' signs, if they have any: a pixel's fourth float is then the sum of the signs, and
     /// samples with negative sign have a sum of their own.
     mean_sign: Option<f64>,
+    /// True if a pixel's fourth float is the weight that cones dropped.
+    holds_dropped: bool,
 }
 
 /// A band of rows of the picture.
@@ -74,13 +80,30 @@ struct Planes<'a> {
     negative: &'a [[f32; 4]],
 }
 
+impl Planes<'_> {
+    /// Returns the sums of a pixel of `samples` samples.
+    #[inline(always)]
+    fn pixel(&self, i: usize, samples: u32) -> PixelSums {
+        let [x, y, z, weight] = self.sum[i].map(f64::from);
+        let mut pixel = PixelSums { sum: [x, y, z], negative: [0.0; 3], weight, samples: f64::from(samples) };
+        if let Some(lost) = self.lost.get(i) {
+            (0..3).for_each(|c| pixel.sum[c] -= f64::from(lost[c]));
+        }
+        if let Some(negative) = self.negative.get(i) {
+            (0..3).for_each(|c| pixel.negative[c] = f64::from(negative[c]));
+        }
+        pixel
+    }
+}
+
 impl FilmBuffer {
     pub fn new(gpu: &Gpu, scene: &PackedScene, features: &Features) -> Result<FilmBuffer> {
         let [width, height] = scene.header.film_size.to_array();
         let limits = &gpu.info().limits;
         let cap = if gpu.info().kind == DeviceKind::Cpu { MAX_BYTES_CPU } else { MAX_BYTES_GPU };
         let cap = cap.min(limits.max_storage_buffer_range).min(limits.heap_bytes / 4);
-        let planes = 1 + u64::from(features.compensated) + u64::from(scene.mean_sign.is_some());
+        let (compensated, mean_sign) = (features.compensated, scene.mean_sign);
+        let planes = 1 + u64::from(compensated) + u64::from(mean_sign.is_some());
         let row = u64::from(width) * PIXEL_BYTES * planes;
         let tile_rows = cap / (row * u64::from(TILE));
         if tile_rows == 0 {
@@ -96,8 +119,8 @@ impl FilmBuffer {
         }
         let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;
         let buffer = gpu.buffer("film", row * u64::from(band_rows), BufferUse::Storage)?;
-        let (compensated, mean_sign) = (features.compensated, scene.mean_sign);
-        Ok(FilmBuffer { buffer, width, height, band_rows, compensated, mean_sign })
+        let holds_dropped = scene.algorithm == Algorithm::Cone;
+        Ok(FilmBuffer { buffer, width, height, band_rows, compensated, mean_sign, holds_dropped })
     }
 
     /// Returns the bands of some rows of the picture.
@@ -127,8 +150,7 @@ impl FilmBuffer {
 
     /// Sets all sums of a band to 0, which is needed unless the first sample is rendered next.
     pub fn clear(&self, gpu: &Gpu, band: &Band) -> Result<()> {
-        let planes = 1 + u64::from(self.compensated) + u64::from(self.mean_sign.is_some());
-        let bytes = u64::from(self.width) * u64::from(band.height) * PIXEL_BYTES * planes;
+        let bytes = u64::from(self.width) * u64::from(band.height) * PIXEL_BYTES * self.planes();
         gpu.write_buffer(&self.buffer, 0, &vec![0; bytes as usize])
     }
 
@@ -140,62 +162,66 @@ impl FilmBuffer {
 
     /// Appends the sums of a band's pixels.
     pub fn read(&self, gpu: &Gpu, band: &Band, block: &mut Block) -> Result<()> {
-        self.read_rows(gpu, band, |_, planes| {
-            let of = |floats: &[f32; 4]| floats.map(f64::from);
-            let color = |floats: &[f32; 4]| [0, 1, 2].map(|c| f64::from(floats[c]));
-            if planes.lost.is_empty() {
-                block.sums.par_extend(planes.sum.par_iter().map(color));
-            } else {
-                let both = planes.sum.par_iter().zip(planes.lost);
-                block.sums.par_extend(both.map(|(sum, lost)| {
-                    let (sum, lost) = (of(sum), of(lost));
-                    [0, 1, 2].map(|c| sum[c] - lost[c])
-                }));
+        let samples = block.range.depth();
+        self.read_planes(gpu, band, |_, planes| {
+            let pixels = || (0..planes.sum.len()).into_par_iter().map(|i| planes.pixel(i, samples));
+            block.sums.par_extend(pixels().map(|pixel| pixel.sum));
+            if let Some(signed) = &mut block.signed {
+                signed.negative.par_extend(pixels().map(|pixel| pixel.negative));
+                signed.weights.par_extend(pixels().map(|pixel| pixel.weight));
             }
-            match &mut block.signed {
-                Some(signed) => {
-                    signed.negative.par_extend(planes.negative.par_iter().map(color));
-                    signed.weights.par_extend(planes.sum.par_iter().map(|sum| f64::from(sum[3])));
-                }
-                // Cones store here the weight that they drop.
-                None => planes.sum.iter().for_each(|sum| block.dropped += f64::from(sum[3])),
-            }
+            self.add_dropped(&planes, &mut block.dropped);
         })
+    }
+
+    /// Writes the means of a band's pixels into a film of the whole picture. Adds the weight that cones dropped.
+    pub fn read_means(
+        &self,
+        gpu: &Gpu,
+        band: &Band,
+        samples: u32,
+        film: &mut Film,
+        dropped: &mut f64,
+    ) -> Result<()> {
+        self.read_planes(gpu, band, |first, planes| {
+            let pixels = &mut film.pixels[first..][..planes.sum.len()];
+            pixels.par_chunks_mut(PIXELS_AT_ONCE).enumerate().for_each(|(chunk, pixels)| {
+                for (pixel, i) in pixels.iter_mut().zip(chunk * PIXELS_AT_ONCE..) {
+                    *pixel = planes.pixel(i, samples).mean(self.mean_sign);
+                }
+            });
+            self.add_dropped(&planes, dropped);
+        })
+    }
+
+    fn add_dropped(&self, planes: &Planes<'_>, dropped: &mut f64) {
+        if self.holds_dropped {
+            planes.sum.iter().for_each(|sum| *dropped += f64::from(sum[3]));
+        }
     }
 
     /// Passes the sums of each pixel of a band to `each`, with its index in the picture.
     pub fn read_with(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, [f32; 4])) -> Result<()> {
-        self.read_rows(gpu, band, |first, planes| {
+        self.read_planes(gpu, band, |first, planes| {
             planes.sum.iter().zip(first..).for_each(|(sum, pixel)| each(pixel, *sum));
         })
     }
 
-    /// Passes a few rows of a band at a time to `each`, with the index of their first pixel in the picture.
-    fn read_rows(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, Planes<'_>)) -> Result<()> {
-        let row_bytes = u64::from(self.width) * PIXEL_BYTES;
-        let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;
-        let plane = || vec![[0f32; 4]; (self.width * rows_at_once) as usize];
-        let mut sums = plane();
-        let mut lost = if self.compensated { plane() } else { Vec::new() };
-        let mut negative = if self.mean_sign.is_some() { plane() } else { Vec::new() };
-        for y in (0..band.height).step_by(rows_at_once as usize) {
-            let count = (rows_at_once.min(band.height - y) * self.width) as usize;
-            let planes = [&mut sums, &mut lost, &mut negative].into_iter().filter(|p| !p.is_empty());
-            for (plane, floats) in (0..).zip(planes) {
-                let first = u64::from(plane * band.height + y) * row_bytes;
-                gpu.read_buffer(&self.buffer, first, bytemuck::cast_slice_mut(&mut floats[..count]))?;
-            }
-            let first = (band.y + y) as usize * self.width as usize;
-            let of = |floats: &'_ [[f32; 4]]| floats.len().min(count);
-            each(
-                first,
-                Planes {
-                    sum: &sums[..count],
-                    lost: &lost[..of(&lost)],
-                    negative: &negative[..of(&negative)],
-                },
-            );
-        }
-        Ok(())
+    /// Passes some pixels of a band at a time to `each`, with the index of the first one in the picture.
+    fn read_planes(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, Planes<'_>)) -> Result<()> {
+        let mut first = band.y as usize * self.width as usize;
+        let bytes = band.height as usize * self.width as usize * PIXEL_BYTES as usize;
+        let starts: Vec<u64> = (0..self.planes()).map(|plane| plane * bytes as u64).collect();
+        gpu.read_parts(&self.buffer, &starts, [bytes, PIXEL_BYTES as usize], &mut |parts| {
+            let mut parts = parts.iter().map(|bytes| bytemuck::cast_slice(bytes));
+            let mut plane = |exists: bool| if exists { parts.next().unwrap_or_default() } else { &[] };
+            let [sum, lost, negative] = [true, self.compensated, self.mean_sign.is_some()].map(&mut plane);
+            each(first, Planes { sum, lost, negative });
+            first += sum.len();
+        })
+    }
+
+    fn planes(&self) -> u64 {
+        1 + u64::from(self.compensated) + u64::from(self.mean_sign.is_some())
     }
 }

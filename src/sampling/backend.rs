@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use super::FilmSums;
 use crate::core::error::Result;
+use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
 use crate::schema::layout::PixelBatch;
@@ -35,6 +36,14 @@ pub trait Backend: Send {
     /// Sums a range of the samples for which the scene was packed. A pixel's sums do not depend on the other pixels of
     /// the range.
     fn sum(&mut self, range: &Range, progress: &dyn Progress) -> Result<FilmSums>;
+
+    /// Writes the means of a range of samples into a film of the whole picture, the same numbers as those of its sums.
+    /// Returns the weight that cones dropped, summed over all pixels.
+    fn means(&mut self, range: &Range, film: &mut Film, progress: &dyn Progress) -> Result<f64> {
+        let sums = self.sum(range, progress)?;
+        sums.write_to(film);
+        Ok(sums.dropped())
+    }
 
     /// Resolves pixels without samples, row by row: red, green, blue and 0, or 1 in the fourth place if the pixel needs
     /// samples. Empty for a scene that was packed for samples, until a pilot run was made.

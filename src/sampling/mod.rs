@@ -7,4 +7,4 @@ mod sums;
 
 pub use backend::{Backend, HalfSums, PilotRun};
 pub use scheduler::Scheduler;
-pub use sums::{Block, Count, FilmSums, Signed};
+pub use sums::{Block, Count, FilmSums, PixelSums, Signed};

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use super::backend::batches_of_all;
 use super::{Backend, FilmSums, HalfSums, PilotRun};
 use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
 use crate::core::range::{Range, Rect};
 use crate::schema::layout::{PixelBatch, TILE};
@@ -122,6 +123,15 @@ impl Backend for Scheduler<'_> {
         let mut sums = FilmSums::default();
         parts.into_iter().try_for_each(|part| sums.merge(part))?;
         Ok(sums)
+    }
+
+    fn means(&mut self, range: &Range, film: &mut Film, progress: &dyn Progress) -> Result<f64> {
+        if let [member] = self.members.as_mut_slice() {
+            return member.means(range, film, progress);
+        }
+        let sums = self.sum(range, progress)?;
+        sums.write_to(film);
+        Ok(sums.dropped())
     }
 
     fn resolve(&mut self, pixels: Rect, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {

@@ -55,12 +55,15 @@ impl Count {
 }
 
 /// The sums of one pixel.
-#[derive(Clone, Copy)]
-struct PixelSums {
-    sum: [f64; 3],
-    negative: [f64; 3],
-    weight: f64,
-    samples: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct PixelSums {
+    /// Sums of red, green and blue.
+    pub sum: [f64; 3],
+    /// The other two are those of [`Signed`], if there are any.
+    pub negative: [f64; 3],
+    pub weight: f64,
+    /// The number of samples.
+    pub samples: f64,
 }
 
 impl PixelSums {
@@ -73,13 +76,14 @@ impl PixelSums {
         self.samples += next.samples;
     }
 
-    fn mean(&self, mean_sign: Option<f64>) -> [f32; 3] {
-        let PixelSums { sum, negative, weight, samples } = *self;
-        let channel = |c: usize| match mean_sign {
-            None => sum[c] / samples,
-            Some(mean) => filtered_mean(sum[c], negative[c], weight, samples, mean),
+    /// Returns the means of the samples, whose signs have that mean if they have any.
+    #[inline(always)]
+    pub fn mean(&self, mean_sign: Option<f64>) -> [f32; 3] {
+        let PixelSums { sum: [r, g, b], negative, weight, samples } = *self;
+        let Some(mean) = mean_sign else {
+            return [(r / samples) as f32, (g / samples) as f32, (b / samples) as f32];
         };
-        [0, 1, 2].map(|c| channel(c) as f32)
+        [0, 1, 2].map(|c| filtered_mean(self.sum[c], negative[c], weight, samples, mean) as f32)
     }
 }
 
