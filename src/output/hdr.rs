@@ -2,9 +2,9 @@
 //! from the top, each as four planes (three mantissas and the exponent) of runs and literal bytes.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
-use rayon::prelude::*;
-
+use super::bands::write_bands;
 use super::quantise::rgbe;
 use crate::core::film::Film;
 
@@ -12,31 +12,40 @@ use crate::core::film::Film;
 const WIDTHS_WITH_RUNS: std::ops::RangeInclusive<usize> = 8..=32_767;
 const MAX_RUN: usize = 127;
 const MAX_LITERALS: usize = 128;
-/// The number of scan lines encoded in parallel.
-const BAND: usize = 256;
 
-pub(super) fn write(film: &Film, mut to: impl Write) -> io::Result<()> {
-    let (width, height) = (film.width as usize, film.height as usize);
-    write!(to, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n")?;
-    for band in film.pixels.chunks(width * BAND) {
-        let lines: Vec<Vec<u8>> = band.par_chunks(width).map(scan_line).collect();
-        lines.iter().try_for_each(|line| to.write_all(line))?;
-    }
-    Ok(())
+/// The encoded lines of a band, and for one line at a time its colours and a plane of them.
+#[derive(Default)]
+struct Band {
+    lines: Vec<u8>,
+    colors: Vec<[u8; 4]>,
+    plane: Vec<u8>,
 }
 
-fn scan_line(pixels: &[[f32; 3]]) -> Vec<u8> {
-    let width = pixels.len();
-    if !WIDTHS_WITH_RUNS.contains(&width) {
-        return pixels.iter().flat_map(|p| rgbe(*p)).collect();
+pub(super) fn write(film: &Film, to: &mut dyn Write) -> io::Result<()> {
+    let (width, height) = (film.width as usize, film.height as usize);
+    write!(to, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n")?;
+    let encode = |rows: Range<usize>, band: &mut Band| {
+        band.lines.clear();
+        rows.for_each(|row| band.append_line(&film.pixels[row * width..][..width]));
+    };
+    write_bands(height, width * 4, Band::default, encode, |band| to.write_all(&band.lines))
+}
+
+impl Band {
+    fn append_line(&mut self, pixels: &[[f32; 3]]) {
+        let width = pixels.len();
+        self.colors.clear();
+        self.colors.extend(pixels.iter().map(|p| rgbe(*p)));
+        if !WIDTHS_WITH_RUNS.contains(&width) {
+            return self.lines.extend_from_slice(self.colors.as_flattened());
+        }
+        self.lines.extend([2, 2, (width >> 8) as u8, width as u8]);
+        for plane in 0..4 {
+            self.plane.clear();
+            self.plane.extend(self.colors.iter().map(|p| p[plane]));
+            compress(&self.plane, &mut self.lines);
+        }
     }
-    let bytes: Vec<[u8; 4]> = pixels.iter().map(|p| rgbe(*p)).collect();
-    let mut line = vec![2, 2, (width >> 8) as u8, width as u8];
-    for plane in 0..4 {
-        let plane: Vec<u8> = bytes.iter().map(|p| p[plane]).collect();
-        compress(&plane, &mut line);
-    }
-    line
 }
 
 /// Compresses a plane: three or more equal bytes are a run (128 + length, byte), bytes between runs

@@ -2,16 +2,19 @@
 //! complete or not at all: it is written beside its final path and renamed. Folders are created by
 //! `prepare_folder` only.
 
+mod bands;
 mod encode;
 mod exr;
 mod folder;
 mod hdr;
 mod jpeg;
+mod png;
+mod png_filter;
 mod quantise;
 mod target;
 mod tiff;
 
-use std::io::{Cursor, Write};
+use std::io::Write;
 use std::path::Path;
 
 use crate::core::error::{Error, Result};
@@ -146,12 +149,12 @@ pub fn to_bytes(film: &Film, format: Format) -> Result<Vec<u8>> {
 
 /// Returns the bytes of a picture file that is written with these options.
 pub fn to_bytes_with(film: &Film, format: Format, options: &WriteOptions) -> Result<Vec<u8>> {
-    let mut bytes = Cursor::new(Vec::new());
+    let mut bytes = Vec::new();
     let failed = |e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height));
     panics::contain(&format_args!("writing a {format} picture"), || {
         encode::encode(film, format, options, &mut bytes).map_err(failed)
     })?;
-    Ok(bytes.into_inner())
+    Ok(bytes)
 }
 
 /// Returns the error that [`write_file`] would return for this path.

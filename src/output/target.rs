@@ -3,15 +3,14 @@
 
 use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
-use std::io::{BufWriter, ErrorKind, Seek, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use crate::core::error::{Error, Result};
 
-/// The buffer holds several scan lines of a common picture per system call: EXR is written line by
-/// line.
+/// The buffer gathers small writes, as of heads and chunks; bands of rows pass it by.
 const BUFFER: usize = 64 << 10;
 
 pub struct Target {
@@ -36,7 +35,7 @@ impl Target {
         Ok(Target { path: path.to_path_buf(), destination, file: BufWriter::with_capacity(BUFFER, file) })
     }
 
-    pub fn writer(&mut self) -> impl Write + Seek {
+    pub fn writer(&mut self) -> impl Write {
         &mut self.file
     }
 

@@ -1,18 +1,25 @@
-//! Writes RGB bytes as an uncompressed TIFF file (TIFF 6.0, baseline RGB): one strip after the
-//! header, then the directory that describes it.
+//! Writes a film as an uncompressed TIFF file (TIFF 6.0, baseline RGB), sRGB-encoded: one strip after the header, then
+//! the directory that describes it.
 
 use std::io::Write;
+use std::ops::Range;
+
+use super::bands::write_bands;
+use super::quantise::srgb8;
+use crate::core::film::Film;
 
 const HEADER_BYTES: usize = 8;
 const SHORT: u16 = 3;
 const LONG: u16 = 4;
 const RATIONAL: u16 = 5;
 
-/// Writes the file; `rgb` has tightly packed rows.
-pub(super) fn write(width: u32, height: u32, rgb: &[u8], mut to: impl Write) -> Result<(), String> {
+pub(super) fn write(film: &Film, to: &mut dyn Write) -> Result<(), String> {
+    let (width, height) = (film.width, film.height);
+    let row_bytes = width as usize * 3;
+    let strip = row_bytes * height as usize;
     // Entries begin on even bytes.
-    let padding = rgb.len() % 2;
-    let directory = HEADER_BYTES + rgb.len() + padding;
+    let padding = strip % 2;
+    let directory = HEADER_BYTES + strip + padding;
     let entry = |tag: u16, kind: u16, count: u32, value: u32| -> [u8; 12] {
         let mut bytes = [0; 12];
         bytes[..2].copy_from_slice(&tag.to_le_bytes());
@@ -37,7 +44,7 @@ pub(super) fn write(width: u32, height: u32, rgb: &[u8], mut to: impl Write) -> 
         entry(273, LONG, 1, HEADER_BYTES as u32), // StripOffsets
         entry(277, SHORT, 1, 3),                  // SamplesPerPixel
         entry(278, LONG, 1, height),              // RowsPerStrip
-        entry(279, LONG, 1, rgb.len() as u32),    // StripByteCounts
+        entry(279, LONG, 1, strip as u32),        // StripByteCounts
         entry(282, RATIONAL, 1, resolution),      // XResolution
         entry(283, RATIONAL, 1, resolution),      // YResolution
         entry(296, SHORT, 1, 1),                  // ResolutionUnit: none
@@ -46,8 +53,16 @@ pub(super) fn write(width: u32, height: u32, rgb: &[u8], mut to: impl Write) -> 
     let count = (entries.len() as u16).to_le_bytes();
     let tail: Vec<u8> = [8u16, 8, 8].iter().flat_map(|v| v.to_le_bytes()).collect();
     let one = [1u32, 1].map(u32::to_le_bytes).concat();
-    for part in [&head[..], rgb, &[0][..padding], &count, &entries.concat(), &[0; 4], &tail, &one] {
-        to.write_all(part).map_err(|e| e.to_string())?;
-    }
-    Ok(())
+    let encode = |rows: Range<usize>, band: &mut Vec<u8>| {
+        let pixels = &film.pixels[rows.start * width as usize..rows.end * width as usize];
+        band.resize(pixels.len() * 3, 0);
+        band.chunks_exact_mut(3).zip(pixels).for_each(|(to, p)| to.copy_from_slice(&p.map(srgb8)));
+    };
+    to.write_all(&head)
+        .and_then(|()| write_bands(height as usize, row_bytes, Vec::new, encode, |band| to.write_all(band)))
+        .and_then(|()| {
+            let behind = [&[0][..padding], &count, &entries.concat(), &[0; 4], &tail, &one];
+            behind.into_iter().try_for_each(|part| to.write_all(part))
+        })
+        .map_err(|e| e.to_string())
 }

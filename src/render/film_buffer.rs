@@ -150,7 +150,7 @@ impl FilmBuffer {
 
     /// Sets all sums of a band to 0, which is needed unless the first sample is rendered next.
     pub fn clear(&self, gpu: &Gpu, band: &Band) -> Result<()> {
-        let bytes = u64::from(self.width) * u64::from(band.height) * PIXEL_BYTES * self.planes();
+        let bytes = u64::from(self.width) * u64::from(band.height) * PIXEL_BYTES * self.plane_count();
         gpu.write_buffer(&self.buffer, 0, &vec![0; bytes as usize])
     }
 
@@ -211,7 +211,7 @@ impl FilmBuffer {
     fn read_planes(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, Planes<'_>)) -> Result<()> {
         let mut first = band.y as usize * self.width as usize;
         let bytes = band.height as usize * self.width as usize * PIXEL_BYTES as usize;
-        let starts: Vec<u64> = (0..self.planes()).map(|plane| plane * bytes as u64).collect();
+        let starts: Vec<u64> = (0..self.plane_count()).map(|plane| plane * bytes as u64).collect();
         gpu.read_parts(&self.buffer, &starts, [bytes, PIXEL_BYTES as usize], &mut |parts| {
             let mut parts = parts.iter().map(|bytes| bytemuck::cast_slice(bytes));
             let mut plane = |exists: bool| if exists { parts.next().unwrap_or_default() } else { &[] };
@@ -221,7 +221,7 @@ impl FilmBuffer {
         })
     }
 
-    fn planes(&self) -> u64 {
+    fn plane_count(&self) -> u64 {
         1 + u64::from(self.compensated) + u64::from(self.mean_sign.is_some())
     }
 }
