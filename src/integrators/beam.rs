@@ -19,11 +19,11 @@ impl Integrator for Beam {
     fn render(
         &self,
         backend: &mut dyn Backend,
-        size: [u32; 2],
+        mut film: Film,
         progress: &dyn Progress,
     ) -> Result<Integrated> {
-        let [width, height] = size;
-        let mut film = Film::new(width, height, 1);
+        let size = [film.width, film.height];
+        film.samples = 1;
         let mut flagged: Vec<u32> = Vec::new();
         for (i, [r, g, b, sampled]) in (0..).zip(backend.resolve(Rect::whole(size), progress)?) {
             film.pixels[i as usize] = [r, g, b];
@@ -34,7 +34,7 @@ impl Integrator for Beam {
         let sampled_pixels = Some(flagged.len() as u64);
         if !flagged.is_empty() {
             let batch = |&i: &u32| PixelBatch {
-                place: PixelBatch::place_of(i, width),
+                place: PixelBatch::place_of(i, size[0]),
                 part: 0,
                 first: 0,
                 count: self.samples,

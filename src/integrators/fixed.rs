@@ -26,24 +26,14 @@ pub struct Cone {
 }
 
 impl Integrator for Fixed {
-    fn render(
-        &self,
-        backend: &mut dyn Backend,
-        size: [u32; 2],
-        progress: &dyn Progress,
-    ) -> Result<Integrated> {
-        means(backend, size, self.samples, progress).map(|(film, _)| film.into())
+    fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated> {
+        means(backend, film, self.samples, progress).map(|(film, _)| film.into())
     }
 }
 
 impl Integrator for Cone {
-    fn render(
-        &self,
-        backend: &mut dyn Backend,
-        size: [u32; 2],
-        progress: &dyn Progress,
-    ) -> Result<Integrated> {
-        let (film, dropped) = means(backend, size, self.samples, progress)?;
+    fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated> {
+        let (film, dropped) = means(backend, film, self.samples, progress)?;
         let dropped = Some(dropped / film.pixels.len() as f64);
         Ok(Integrated { dropped, ..Integrated::from(film) })
     }
@@ -52,11 +42,12 @@ impl Integrator for Cone {
 /// Returns the film, and the weight that cones dropped, summed over all pixels.
 fn means(
     backend: &mut dyn Backend,
-    [width, height]: [u32; 2],
+    mut film: Film,
     samples: u32,
     progress: &dyn Progress,
 ) -> Result<(Film, f64)> {
-    let mut film = Film::new(width, height, samples);
+    let [width, height] = [film.width, film.height];
+    film.samples = samples;
     let mut dropped = 0.0;
     let tiles = MAX_PIXELS / TILE / width.max(1);
     for pixels in Rect::whole([width, height]).strips(TILE * tiles.max(1)) {

@@ -18,13 +18,8 @@ use crate::sampling::Backend;
 
 /// A rendering algorithm.
 pub trait Integrator {
-    /// Renders a picture of that size.
-    fn render(
-        &self,
-        backend: &mut dyn Backend,
-        size: [u32; 2],
-        progress: &dyn Progress,
-    ) -> Result<Integrated>;
+    /// Renders a picture of the size of a black film, which becomes the picture or is not needed.
+    fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated>;
 }
 
 /// A picture and the integrator's statistics.
@@ -55,12 +50,8 @@ pub struct Adaptive {
 }
 
 impl Integrator for Adaptive {
-    fn render(
-        &self,
-        backend: &mut dyn Backend,
-        size: [u32; 2],
-        progress: &dyn Progress,
-    ) -> Result<Integrated> {
+    fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated> {
+        let size = [film.width, film.height];
         let adaptive::Run { film, outcome, estimates } = adaptive::run(backend, size, self.goal, progress)?;
         Ok(Integrated { outcome: Some(outcome), estimates: Some(estimates), ..Integrated::from(film) })
     }

@@ -31,7 +31,8 @@ impl Prepared<'_, '_> {
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
         let [width, height] = self.scene.header.film_size.to_array();
         let mut backend = DeviceBackend::new(self)?;
-        let integrated = integrator(&self.scene, goal).render(&mut backend, [width, height], progress)?;
+        let integrated =
+            integrator(&self.scene, goal).render(&mut backend, Film::new(width, height, 0), progress)?;
         let mut report = backend.finish()?;
         Ok((report.take(integrated), report))
     }

@@ -7,7 +7,8 @@ use super::backend::DeviceBackend;
 use super::layer_samples::estimates;
 pub use super::layer_surfaces::MAX_SURFACES;
 use super::layer_surfaces::{Take, count_surfaces, looking};
-use super::picture::{Loaded, On, Options, Picture, load};
+use super::load::{Loaded, load};
+use super::picture::{On, Options, Picture};
 use super::session::Session;
 use crate::core::error::Result;
 use crate::core::film::Film;
@@ -43,7 +44,7 @@ pub fn render_layers(
         for aov in centres {
             let quantity = aov.at_centre().unwrap_or_default();
             let film = measuring.measure(quantity, &mut |backend, size| {
-                Ok(Fixed { samples: 1 }.render(backend, size, &steps.next())?.film)
+                Ok(Fixed { samples: 1 }.render(backend, Film::new(size[0], size[1], 0), &steps.next())?.film)
             })?;
             found.push((aov, layer(aov, &film)));
             steps.done += 1;
@@ -57,7 +58,7 @@ pub fn render_layers(
                 let mut loaded = load(&lightless, options, on)?;
                 let mut measuring = Measuring::open(&mut loaded, options)?;
                 let film = measuring.measure(Quantity::Albedo, &mut |backend, size| {
-                    Ok(Fixed { samples }.render(backend, size, &steps.next())?.film)
+                    Ok(Fixed { samples }.render(backend, Film::new(size[0], size[1], 0), &steps.next())?.film)
                 })?;
                 layer(aov, &film)
             }

@@ -14,6 +14,7 @@ mod images;
 mod layer_samples;
 mod layer_surfaces;
 pub mod layers;
+mod load;
 mod loop_budget;
 mod mesh_passes;
 mod mesh_upload;

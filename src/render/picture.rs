@@ -1,11 +1,12 @@
 //! Renders a scene from its texture files to the film; every caller that renders a scene once uses it. Input: a scene,
 //! options, and the backends that take the samples. Output: the film and statistics.
 
-use std::collections::HashSet;
-use std::sync::mpsc;
+use std::sync::Arc;
+use std::thread::JoinHandle;
 use std::time::Instant;
 
 use super::backend::DeviceBackend;
+use super::load::{Loaded, load_with_film};
 use super::plan::integrator;
 use super::session::{Prepared, Session};
 use super::{MipChoice, Report, Tuning};
@@ -14,14 +15,12 @@ use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::gpu::{self, DeviceInfo, DeviceSelect, Gpu};
+use crate::integrators::Integrated;
 use crate::integrators::adaptive::{Goal, PixelEstimates};
 use crate::oracle::backend::OracleBackend;
-use crate::pack::{self, MipPlacement, PackedScene};
+use crate::pack::PackedScene;
 use crate::sampling::{Backend, Scheduler};
 use crate::scene::model::Scene;
-use crate::scene::texture_advice::of_textures;
-use crate::texture::decode::AllowedFloats;
-use crate::texture::load::load_with_notes;
 
 /// A backend that takes samples.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,6 +87,8 @@ pub struct Picture {
     pub estimates: Option<PixelEstimates>,
     /// For each texture its name and the number of texels that are NaN or infinite.
     pub nonfinite: Vec<(String, u64)>,
+    /// Held until the picture is written.
+    _closing: Arc<Closing>,
 }
 
 /// The state from which a backend renders.
@@ -140,15 +141,49 @@ impl Working<'_> {
 /// Renders a scene on one backend, or on several at once. Strips of the picture are assigned to the backends
 /// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
-    let Loaded { gpus, mut packed, doubts, startup, load } = load(scene, options, on)?;
+    let (loaded, film) = load_with_film(scene, options, on)?;
+    let Loaded { gpus, mut packed, doubts, startup, load } = loaded;
     packed.diagnosed = options.diagnosed;
-    let [width, height] = packed.header.film_size.to_array();
     let texture_lines = packed.texture_lines();
     let nonfinite =
         packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied()).collect();
+    let Integration { mut integrated, mut report, device } =
+        integrate(packed, film, options, on, &gpus, progress)?;
+    (report.seconds.startup, report.seconds.load) = (startup, load);
+    report.warnings.splice(..0, doubts);
+    let estimates = integrated.estimates.take();
+    Ok(Picture {
+        film: report.take(integrated),
+        report,
+        device,
+        driver: drivers(on, &gpus),
+        devices: gpus.iter().map(|gpu| gpu.info().clone()).collect(),
+        messages: gpus.iter().flat_map(Gpu::messages).collect(),
+        texture_lines,
+        estimates,
+        nonfinite,
+        _closing: Arc::new(Closing::begin(gpus)),
+    })
+}
+
+/// What remains of sessions and backends when they are done.
+struct Integration {
+    integrated: Integrated,
+    report: Report,
+    device: String,
+}
+
+/// Opens the sessions, builds their pipelines and renders.
+fn integrate(
+    packed: PackedScene,
+    film: Film,
+    options: &Options,
+    on: &[On],
+    gpus: &[Gpu],
+    progress: &dyn Progress,
+) -> Result<Integration> {
     let integrator = integrator(&packed, options.goal);
     let (double, has_meshes) = (packed.double, !packed.mesh_texels.is_empty());
-
     // The last backend takes the scene itself, the others copies.
     let mut scenes = vec![packed.clone(); on.len().saturating_sub(1)];
     scenes.push(packed);
@@ -176,8 +211,7 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
         backends.push(ready.begin()?);
     }
     let mut scheduler = Scheduler::new(backends.iter_mut().map(Working::backend).collect())?;
-    let mut integrated = integrator.render(&mut scheduler, [width, height], progress)?;
-    let estimates = integrated.estimates.take();
+    let integrated = integrator.render(&mut scheduler, film, progress)?;
     let device = scheduler.name();
     let rendering = clock.elapsed().as_secs_f64();
 
@@ -191,77 +225,25 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
     });
     let mut report = reports.next().unwrap_or_else(|| Ok(Report::default()))?;
     reports.try_for_each(|other| other.map(|other| report.join(&other)))?;
-    (report.seconds.startup, report.seconds.load) = (startup, load);
-    report.warnings.splice(..0, doubts);
-    let film = report.take(integrated);
-    Ok(Picture {
-        film,
-        report,
-        device,
-        driver: drivers(on, &gpus),
-        devices: gpus.iter().map(|gpu| gpu.info().clone()).collect(),
-        messages: gpus.iter().flat_map(Gpu::messages).collect(),
-        texture_lines,
-        estimates,
-        nonfinite,
-    })
+    Ok(Integration { integrated, report, device })
 }
 
-/// The inputs of a render, before anything is uploaded.
-pub(super) struct Loaded {
-    /// The devices among the backends, in order.
-    pub(super) gpus: Vec<Gpu>,
-    pub(super) packed: PackedScene,
-    /// Warnings about the textures.
-    doubts: Vec<String>,
-    startup: f64,
-    load: f64,
+/// Devices that are closed while their picture is written: some drivers take a while.
+#[derive(Debug)]
+struct Closing(Option<JoinHandle<()>>);
+
+impl Closing {
+    fn begin(gpus: Vec<Gpu>) -> Closing {
+        // Without a thread they are closed at once.
+        Closing(std::thread::Builder::new().spawn(move || drop(gpus)).ok())
+    }
 }
 
-/// Opens the devices while the textures are read, as both mostly wait.
-pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
-    std::thread::scope(|scope| {
-        let start = Instant::now();
-        let (tell, told) = mpsc::channel();
-        let loading = scope.spawn(move || {
-            let packed = pack(scene, options, || told.recv().unwrap_or_default());
-            (packed, start.elapsed().as_secs_f64())
-        });
-        let selects = on.iter().filter_map(|on| match on {
-            On::Device(select) => Some(select),
-            On::Oracle => None,
-        });
-        let gpus: Result<Vec<Gpu>> = selects.map(Gpu::open).collect();
-        // Several backends, or the oracle, read the same levels: those that the host generates.
-        let mip_chains = match gpus.as_deref() {
-            Ok([gpu]) if on.len() == 1 => options.mips.mip_chains(gpu.info()),
-            _ => MipPlacement::Host,
-        };
-        // The receiver is gone if the scene does not need it.
-        let _ = tell.send(mip_chains);
-        let startup = if on == [On::Oracle] { 0.0 } else { start.elapsed().as_secs_f64() };
-        let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        // An error in the scene takes precedence over one of the machine.
-        packed.and_then(|(packed, doubts)| Ok(Loaded { gpus: gpus?, packed, doubts, startup, load }))
-    })
-}
-
-/// Returns the packed scene, and warnings about its textures. `mip_chains` decides where levels are generated, and may
-/// wait until a device is open.
-fn pack(
-    scene: &Scene,
-    options: &Options,
-    mip_chains: impl FnOnce() -> MipPlacement,
-) -> Result<(PackedScene, Vec<String>)> {
-    let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
-    let textures = scene.textures.iter().map(|t| load_with_notes(t, values)).collect::<Result<Vec<_>>>()?;
-    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
-    // Several textures may be of one file.
-    let mut told = HashSet::new();
-    let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
-    let doubts: Vec<String> = notes.chain(of_textures(scene, &textures)).collect();
-    let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
-    Ok((pack::pack_with(scene, textures, options.crop, mip_chains)?, doubts))
+impl Drop for Closing {
+    fn drop(&mut self) {
+        // The process must not end meanwhile. A panic there was reported, and changes no picture.
+        let _ = self.0.take().map(JoinHandle::join);
+    }
 }
 
 fn drivers(on: &[On], gpus: &[Gpu]) -> String {

@@ -1,0 +1,109 @@
+//! What a render needs before anything is uploaded. Input: a scene, options, and the backends. Output: open devices, the
+//! packed scene with its textures, and an empty film; all are made at the same time, as each of them mostly waits.
+
+use std::collections::HashSet;
+use std::sync::mpsc;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::picture::{On, Options};
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::gpu::Gpu;
+use crate::pack::{self, MipPlacement, PackedScene};
+use crate::scene::model::{Algorithm, Scene};
+use crate::scene::texture_advice::of_textures;
+use crate::texture::decode::AllowedFloats;
+use crate::texture::load::load_with_notes;
+
+/// Pixels of films whose memory is made present beforehand, and of a page of that memory.
+const LARGE_FILM: usize = 1 << 21;
+const PIXELS_OF_PAGE: usize = 4096 / size_of::<[f32; 3]>();
+
+/// The inputs of a render, before anything is uploaded.
+pub(super) struct Loaded {
+    /// The devices among the backends, in order.
+    pub(super) gpus: Vec<Gpu>,
+    pub(super) packed: PackedScene,
+    /// Warnings about the textures.
+    pub(super) doubts: Vec<String>,
+    pub(super) startup: f64,
+    pub(super) load: f64,
+}
+
+/// Opens the devices while the textures are read, as both mostly wait.
+pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
+    std::thread::scope(|scope| {
+        let start = Instant::now();
+        let (tell, told) = mpsc::channel();
+        let loading = scope.spawn(move || {
+            let packed = pack(scene, options, || told.recv().unwrap_or_default());
+            (packed, start.elapsed().as_secs_f64())
+        });
+        let selects = on.iter().filter_map(|on| match on {
+            On::Device(select) => Some(select),
+            On::Oracle => None,
+        });
+        let gpus: Result<Vec<Gpu>> = selects.map(Gpu::open).collect();
+        // Several backends, or the oracle, read the same levels: those that the host generates.
+        let mip_chains = match gpus.as_deref() {
+            Ok([gpu]) if on.len() == 1 => options.mips.mip_chains(gpu.info()),
+            _ => MipPlacement::Host,
+        };
+        // The receiver is gone if the scene does not need it.
+        let _ = tell.send(mip_chains);
+        let startup = if on == [On::Oracle] { 0.0 } else { start.elapsed().as_secs_f64() };
+        let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        // An error in the scene takes precedence over one of the machine.
+        packed.and_then(|(packed, doubts)| Ok(Loaded { gpus: gpus?, packed, doubts, startup, load }))
+    })
+}
+
+/// Returns the packed scene, and warnings about its textures. `mip_chains` decides where levels are generated, and may
+/// wait until a device is open.
+fn pack(
+    scene: &Scene,
+    options: &Options,
+    mip_chains: impl FnOnce() -> MipPlacement,
+) -> Result<(PackedScene, Vec<String>)> {
+    let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
+    // All first: of several faults, the one of the first texture is told.
+    let textures: Vec<Result<_>> = scene.textures.par_iter().map(|t| load_with_notes(t, values)).collect();
+    let textures = textures.into_iter().collect::<Result<Vec<_>>>()?;
+    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
+    // Several textures may be of one file.
+    let mut told = HashSet::new();
+    let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
+    let doubts: Vec<String> = notes.chain(of_textures(scene, &textures)).collect();
+    let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
+    Ok((pack::pack_with(scene, textures, options.crop, mip_chains)?, doubts))
+}
+
+/// Loads as [`load`] does, and makes an empty film of the picture meanwhile.
+pub(super) fn load_with_film(scene: &Scene, options: &Options, on: &[On]) -> Result<(Loaded, Film)> {
+    std::thread::scope(|scope| {
+        let film = scope.spawn(|| {
+            let size = options.crop.map_or([scene.width, scene.height], |crop| [crop.width, crop.height]);
+            let fills_once = !matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
+            empty_film(size, fills_once)
+        });
+        let loaded = load(scene, options, on);
+        let film = film.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        loaded.map(|loaded| (loaded, film))
+    })
+}
+
+/// Returns a black film. The system gives memory page by page as it is written: if `touched`, all of a large film is
+/// there already when the picture is read back.
+fn empty_film([width, height]: [u32; 2], touched: bool) -> Film {
+    let mut film = Film::new(width, height, 0);
+    if touched && film.pixels.len() >= LARGE_FILM {
+        film.pixels.par_chunks_mut(256 * PIXELS_OF_PAGE).for_each(|pixels| {
+            for page in pixels.chunks_mut(PIXELS_OF_PAGE) {
+                *std::hint::black_box(&mut page[0]) = [0.0; 3];
+            }
+        });
+    }
+    film
+}
