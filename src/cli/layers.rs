@@ -30,6 +30,11 @@ pub struct LayerArgs {
 }
 
 impl LayerArgs {
+    /// Returns true unless the layers are written alone.
+    pub fn has_beauty(&self) -> bool {
+        !self.no_beauty
+    }
+
     /// Returns true if a layer numbers shapes, of which each mesh has to be one.
     pub fn numbers_meshes(&self) -> bool {
         self.aov.contains(&Aov::Instance)
@@ -59,7 +64,7 @@ impl Wanted {
                 aovs.push(aov);
             }
         }
-        let mut wanted = Wanted { aovs, has_beauty: !args.no_beauty, pictures: Vec::new() };
+        let mut wanted = Wanted { aovs, has_beauty: args.has_beauty(), pictures: Vec::new() };
         if wanted.aovs.is_empty() {
             return Ok(wanted);
         }

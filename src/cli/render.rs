@@ -19,7 +19,7 @@ use crate::core::range::Rect;
 use crate::gpu::DeviceSelect;
 use crate::lab::verify::known::anisotropy_fault;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
-use crate::render::{self, MipChoice, On, Options, TexelChoice, Tuning};
+use crate::render::{self, Devices, MipChoice, On, Options, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
@@ -91,6 +91,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         on.push(On::Device(DeviceSelect::Default));
     }
     let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
+    let devices = args.layers.has_beauty().then(|| Devices::open(&on));
     let mut scene = args.overrides.load(&args.scene, args.layers.numbers_meshes())?;
     let chosen = args.overrides.apply(&mut scene)?;
     args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
@@ -124,7 +125,8 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     let loaded = start.elapsed().as_secs_f64();
-    let mut ran = render::render_scene(&scene, &options, &on, &bar)?;
+    let devices = devices.unwrap_or_else(|| Devices::open(&on));
+    let mut ran = render::render_scene_on(&scene, &options, &on, devices, &bar)?;
     // From the start of the process: reading the scene file is part of loading.
     ran.report.seconds.load += loaded;
     let samples_anisotropically = advice::samples_anisotropically(&scene);

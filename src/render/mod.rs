@@ -50,8 +50,9 @@ use crate::schema::specialization::Constant;
 
 pub use backend::DeviceBackend;
 pub use images::can_sample;
+pub use load::Devices;
 pub(crate) use mip_chain::{MipGenerator, MipSource};
-pub use picture::{On, Options, Picture, render_scene};
+pub use picture::{On, Options, Picture, render_scene, render_scene_on};
 pub use plan::integrator;
 pub(crate) use resources::Resources;
 pub use session::{Prepared, Session};

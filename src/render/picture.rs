@@ -6,7 +6,7 @@ use std::thread::JoinHandle;
 use std::time::Instant;
 
 use super::backend::DeviceBackend;
-use super::load::{Loaded, load_with_film};
+use super::load::{Devices, Loaded, load_with_film};
 use super::plan::integrator;
 use super::session::{Prepared, Session};
 use super::{MipChoice, Report, Tuning};
@@ -141,7 +141,18 @@ impl Working<'_> {
 /// Renders a scene on one backend, or on several at once. Strips of the picture are assigned to the backends
 /// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
-    let (loaded, film) = load_with_film(scene, options, on)?;
+    render_scene_on(scene, options, on, Devices::open(on), progress)
+}
+
+/// Renders a scene on backends whose devices are being opened.
+pub fn render_scene_on(
+    scene: &Scene,
+    options: &Options,
+    on: &[On],
+    devices: Devices,
+    progress: &dyn Progress,
+) -> Result<Picture> {
+    let (loaded, film) = load_with_film(scene, options, devices)?;
     let Loaded { gpus, mut packed, doubts, startup, load } = loaded;
     packed.diagnosed = options.diagnosed;
     let texture_lines = packed.texture_lines();
