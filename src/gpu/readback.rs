@@ -83,7 +83,10 @@ pub(super) fn parts(
             || ready.into_iter().for_each(|bytes| pass(bytes, starts.len(), each)),
         )?;
     }
-    previous.map_or(Ok(()), |range| Ok(pass(&target.mapped()?[range], starts.len(), each)))
+    if let Some(range) = previous {
+        pass(&target.mapped()?[range], starts.len(), each);
+    }
+    Ok(())
 }
 
 /// Passes the bytes of so many parts of equal length, one behind the other.

@@ -2,7 +2,8 @@
 //! Output: one number a pixel.
 
 use super::aov::Aov;
-use super::picture::{On, Options, Picture, render_scene};
+use super::options::{On, Options};
+use super::picture::{Picture, render_scene};
 use crate::core::error::Result;
 use crate::core::layer::{Channel, Layer};
 use crate::core::progress::Progress;

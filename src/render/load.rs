@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::picture::{On, Options};
+use super::options::{On, Options};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::gpu::{DeviceSelect, Gpu};

@@ -5,69 +5,22 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Instant;
 
+use super::Report;
 use super::backend::DeviceBackend;
 use super::load::{Devices, Loaded, load_with_film};
+use super::options::{On, Options};
 use super::plan::integrator;
 use super::session::{Prepared, Session};
-use super::{MipChoice, Report, Tuning};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
-use crate::core::range::Rect;
-use crate::gpu::{self, DeviceInfo, DeviceSelect, Gpu};
+use crate::gpu::{self, DeviceInfo, Gpu};
 use crate::integrators::Integrated;
-use crate::integrators::adaptive::{Goal, PixelEstimates};
+use crate::integrators::adaptive::PixelEstimates;
 use crate::oracle::backend::OracleBackend;
 use crate::pack::PackedScene;
 use crate::sampling::{Backend, Scheduler};
 use crate::scene::model::Scene;
-
-/// A backend that takes samples.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum On {
-    Device(DeviceSelect),
-    /// The float64 renderer on the CPU.
-    Oracle,
-}
-
-impl On {
-    /// Parses `oracle`, or the syntax of [`DeviceSelect::parse`].
-    pub fn parse(text: &str) -> Result<On> {
-        if text == "oracle" { Ok(On::Oracle) } else { DeviceSelect::parse(text).map(On::Device) }
-    }
-}
-
-/// Rendering options that are not part of the scene.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The part of the picture that is rendered; `None` is the whole.
-    pub crop: Option<Rect>,
-    /// The end of adaptive sampling; `None` is the scene's number of samples.
-    pub goal: Option<Goal>,
-    /// Accepts textures with NaN and infinite texels.
-    pub allow_nonfinite: bool,
-    /// Keeps all features in the pipelines.
-    pub keep_everything: bool,
-    /// Counts on the device how often limits are exceeded.
-    pub diagnosed: bool,
-    pub mips: MipChoice,
-    pub tuning: Tuning,
-}
-
-impl Default for Options {
-    /// Renders the whole picture with the choices that measure best.
-    fn default() -> Options {
-        Options {
-            crop: None,
-            goal: None,
-            allow_nonfinite: false,
-            keep_everything: false,
-            diagnosed: false,
-            mips: MipChoice::Auto,
-            tuning: Tuning::default(),
-        }
-    }
-}
 
 /// A film, and the statistics of its render.
 #[derive(Clone, Debug)]

@@ -30,7 +30,6 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["pack.geometry", "pack.precision"], "how shapes are packed depends on the numbers that they need"),
     (&["render.layer_samples", "render.layers"], "layers, and the samples that some of them count"),
     (&["lab.inspect"], "the page of a folder"),
-    (&["output.encode", "output.exr"], "a picture's encoders, and what they are told"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
 ];
 
