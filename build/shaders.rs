@@ -25,6 +25,7 @@ pub const FAMILIES: &[Family] = &[
     family("beam", "shared/beam_main.glsl", &[], &["f32", "f64-records"]),
     family("tile_culling", "shared/tile_culling_main.glsl", &[], &["f32", "f64-records"]),
     family("mips", "mips.glsl", &[], &[]),
+    family("goal", "goal/main.glsl", &[], &[]),
     family("probe", "shared/probe_main.glsl", &["buffer", "image", "solids"], &[]),
     family("probe_rays", "shared/probe_rays_main.glsl", &["none"], &["f32", "f64-math"]),
     family("probe_procedural", "probe_procedural.glsl", &["none"], &[]),

@@ -94,6 +94,11 @@ impl Wanted {
         Ok(wanted)
     }
 
+    /// Returns true if a layer tells the samples or the errors of single pixels.
+    pub fn needs_pixels(&self) -> bool {
+        self.aovs.iter().any(|aov| matches!(aov, Aov::Samples | Aov::Error))
+    }
+
     /// Measures the layers.
     pub fn render(
         &self,

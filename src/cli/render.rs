@@ -19,7 +19,7 @@ use crate::core::range::Rect;
 use crate::gpu::DeviceSelect;
 use crate::lab::verify::known::anisotropy_fault;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
-use crate::render::{self, Devices, MipChoice, On, Options, TexelChoice, Tuning};
+use crate::render::{self, EstimateChoice, MipChoice, On, Options, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
@@ -62,6 +62,9 @@ pub struct RenderArgs {
     /// Where box mip chains of textures are generated, if their lengths are powers of two
     #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
     mips: MipChoice,
+    /// Where errors are estimated and samples distributed with --target-error, --budget and adaptive sampling
+    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(EstimateChoice::NAMES, EstimateChoice::from_name))]
+    estimates: EstimateChoice,
     /// Workgroup shape, for measurements [default: by device]
     #[arg(long, value_name = "WxH", help_heading = MEASURING, value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
     workgroup: Option<[u32; 2]>,
@@ -91,7 +94,6 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         on.push(On::Device(DeviceSelect::Default));
     }
     let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
-    let devices = args.layers.has_beauty().then(|| Devices::open(&on));
     let mut scene = args.overrides.load(&args.scene, args.layers.numbers_meshes())?;
     let chosen = args.overrides.apply(&mut scene)?;
     args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
@@ -108,11 +110,17 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let options = Options {
         crop: args.crop,
         goal: args.overrides.goal(),
+        tells_pixels: wanted.needs_pixels(),
         allow_nonfinite: args.allow_nonfinite,
         keep_everything: args.keep_everything,
         diagnosed: args.guards || args.verbose,
         mips: args.mips,
-        tuning: Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() },
+        tuning: Tuning {
+            texels: args.texels,
+            group: args.workgroup,
+            estimates: args.estimates,
+            ..Tuning::default()
+        },
     };
     let placement = args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
     let png_bits = if args.png_bits == "16" { 16 } else { 8 };
@@ -125,8 +133,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     let loaded = start.elapsed().as_secs_f64();
-    let devices = devices.unwrap_or_else(|| Devices::open(&on));
-    let mut ran = render::render_scene_on(&scene, &options, &on, devices, &bar)?;
+    let mut ran = render::render_scene(&scene, &options, &on, &bar)?;
     // From the start of the process: reading the scene file is part of loading.
     ran.report.seconds.load += loaded;
     let samples_anisotropically = advice::samples_anisotropically(&scene);

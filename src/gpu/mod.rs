@@ -76,6 +76,14 @@ impl OpenOptions {
     }
 }
 
+/// One dispatch of a submission. `push` has exactly the pipeline's push constant bytes.
+pub struct Dispatch<'a> {
+    pub pipeline: &'a Pipeline,
+    pub group: &'a BindGroup,
+    pub push: &'a [u8],
+    pub groups: [u32; 3],
+}
+
 /// An open device with one compute queue.
 pub struct Gpu {
     // Lock order: staging before commands, so that no two calls can deadlock.
@@ -228,6 +236,25 @@ impl Gpu {
         groups: [u32; 3],
     ) -> Result<RunTime> {
         self.run_all(pipeline, group, &[(push, groups)])
+    }
+
+    /// Runs several dispatches in one submission, each of which sees the writes of the ones before it, and then reads into
+    /// `out` the bytes of a buffer from `offset` on.
+    pub fn run_and_read(
+        &self,
+        dispatches: &[Dispatch<'_>],
+        buffer: &Buffer,
+        offset: u64,
+        out: &mut [u8],
+    ) -> Result<RunTime> {
+        self.owns(buffer.core(), buffer.name())?;
+        for dispatch in dispatches {
+            self.owns(dispatch.pipeline.core(), dispatch.pipeline.name())?;
+            self.owns(dispatch.group.core(), dispatch.pipeline.name())?;
+            dispatch.pipeline.check_run(dispatch.group, dispatch.push, dispatch.groups)?;
+        }
+        let (mut staging, mut commands) = (lock(&self.staging), lock(&self.commands));
+        readback::after(&mut staging, &mut commands, dispatches, buffer, offset, out)
     }
 
     /// Runs several dispatches, each with its push constants and workgroup counts, in one

@@ -7,9 +7,11 @@ use ash::vk;
 use rayon::prelude::*;
 
 use super::buffer::Buffer;
-use super::command::Commands;
-use super::staging::Staging;
-use crate::core::error::Result;
+use super::command::{Commands, barrier};
+use super::staging::{STAGING_BYTES, Staging};
+use super::timing::RunTime;
+use super::{Dispatch, Pipeline};
+use crate::core::error::{Error, Result};
 
 /// The largest size of one half of the staging buffer: enough that the time of a submission does not show.
 const HALF_BYTES: usize = 4 << 20;
@@ -87,6 +89,45 @@ pub(super) fn parts(
         pass(&target.mapped()?[range], starts.len(), each);
     }
     Ok(())
+}
+
+/// Runs dispatches, each of which sees the writes of the ones before it, and reads bytes of a buffer after them, all in one
+/// submission.
+pub(super) fn after(
+    staging: &mut Staging,
+    commands: &mut Commands,
+    dispatches: &[Dispatch<'_>],
+    buffer: &Buffer,
+    offset: u64,
+    out: &mut [u8],
+) -> Result<RunTime> {
+    buffer.check_range(offset, out.len())?;
+    if out.len() > STAGING_BYTES {
+        return Err(Error::new(format!("{} bytes are too many to be read with a dispatch", out.len())));
+    }
+    let is_hosts = buffer.host_bytes(commands).is_some();
+    let target = staging.get(out.len())?;
+    let handle = target.handle();
+    let name = dispatches.first().map_or(buffer.name(), |first| Pipeline::name(first.pipeline));
+    let time = commands.run(name, |device, commands| {
+        for (index, dispatch) in dispatches.iter().enumerate() {
+            if index > 0 {
+                barrier(device, commands);
+            }
+            dispatch.pipeline.record(device, commands, dispatch.group, dispatch.push, dispatch.groups);
+        }
+        if !is_hosts {
+            barrier(device, commands);
+            let region = vk::BufferCopy { src_offset: offset, dst_offset: 0, size: out.len() as u64 };
+            // SAFETY: both ranges were checked; the closing barrier of a submission makes its writes visible to the host.
+            unsafe { device.cmd_copy_buffer(commands, buffer.handle(), handle, &[region]) };
+        }
+    })?;
+    match buffer.host_bytes(commands) {
+        Some(bytes) => out.copy_from_slice(&bytes[offset as usize..][..out.len()]),
+        None => out.copy_from_slice(&target.mapped()?[..out.len()]),
+    }
+    Ok(time)
 }
 
 /// Passes the bytes of so many parts of equal length, one behind the other.

@@ -28,7 +28,7 @@ pub struct Integrated {
     pub film: Film,
     /// The result of sampling to a goal.
     pub outcome: Option<Outcome>,
-    /// Samples and errors of single pixels, of sampling to a goal.
+    /// Samples and errors of single pixels, of sampling to a goal, if they were asked for.
     pub estimates: Option<PixelEstimates>,
     /// The number of pixels that beams left to samples.
     pub sampled_pixels: Option<u64>,
@@ -47,12 +47,14 @@ impl From<Film> for Integrated {
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive {
     pub goal: Goal,
+    /// Tells samples and errors of single pixels, too.
+    pub tells_pixels: bool,
 }
 
 impl Integrator for Adaptive {
     fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated> {
-        let size = [film.width, film.height];
-        let adaptive::Run { film, outcome, estimates } = adaptive::run(backend, size, self.goal, progress)?;
-        Ok(Integrated { outcome: Some(outcome), estimates: Some(estimates), ..Integrated::from(film) })
+        let adaptive::Run { film, outcome, estimates } =
+            adaptive::run(backend, film, self.goal, self.tells_pixels, progress)?;
+        Ok(Integrated { outcome: Some(outcome), estimates, ..Integrated::from(film) })
     }
 }

@@ -8,6 +8,7 @@ use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
+use super::goal::DevicePixels;
 use super::plan::integrator;
 use super::session::{Prepared, Turn, Work};
 use super::tiles::TileRenderer;
@@ -15,9 +16,9 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, RunTime};
 use crate::integrators::adaptive::Goal;
-use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun};
+use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun, Pixels};
 use crate::schema::layout::PixelBatch;
 
 impl Prepared<'_, '_> {
@@ -31,8 +32,11 @@ impl Prepared<'_, '_> {
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
         let [width, height] = self.scene.header.film_size.to_array();
         let mut backend = DeviceBackend::new(self)?;
-        let integrated =
-            integrator(&self.scene, goal).render(&mut backend, Film::new(width, height, 0), progress)?;
+        let integrated = integrator(&self.scene, goal, false).render(
+            &mut backend,
+            Film::new(width, height, 0),
+            progress,
+        )?;
         let mut report = backend.finish()?;
         Ok((report.take(integrated), report))
     }
@@ -40,7 +44,7 @@ impl Prepared<'_, '_> {
 
 /// A prepared session while it renders.
 pub struct DeviceBackend<'p> {
-    prepared: &'p Prepared<'p, 'p>,
+    pub(super) prepared: &'p Prepared<'p, 'p>,
     /// Set by the first request for batches.
     batches: Option<BatchSampler<'p>>,
     /// Set by a pilot run, for a scene that is sampled by batches.
@@ -106,7 +110,7 @@ impl<'p> DeviceBackend<'p> {
     }
 
     /// Returns the sampler of batches, built on first use, and the report.
-    fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
+    pub(super) fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
         let Prepared { session, scene, work, .. } = self.prepared;
         if self.batches.is_none() {
             self.batches = Some(match work {
@@ -164,6 +168,16 @@ impl<'p> DeviceBackend<'p> {
                 Err(Error::new("a scene that is packed for batches or beams has no sums of tiles"))
             }
         }
+    }
+
+    /// Records a submission with this number of samples.
+    pub(super) fn learn(&mut self, samples: f64, time: RunTime) -> Result<()> {
+        let (sampler, report) = self.batches()?;
+        report.add_slice(time);
+        if samples > 0.0 {
+            sampler.passes.learn(samples, time);
+        }
+        Ok(())
     }
 
     /// Fails unless the pixels are whole rows of the picture and the samples those for which the scene was packed.
@@ -241,6 +255,17 @@ impl Backend for DeviceBackend<'_> {
 
     fn read(&mut self, sums: &mut HalfSums) -> Result<()> {
         self.batches()?.0.read(sums)
+    }
+
+    fn keeps_pixels(&self) -> bool {
+        self.prepared.goal.is_some()
+    }
+
+    fn kept_pixels(&mut self) -> Result<Option<Box<dyn Pixels + '_>>> {
+        match &self.prepared.goal {
+            Some(steps) => Ok(Some(Box::new(DevicePixels::new(self, steps)?))),
+            None => Ok(None),
+        }
     }
 
     fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {

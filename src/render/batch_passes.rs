@@ -3,86 +3,16 @@
 
 use std::iter::{once, repeat_n};
 
-use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
+use super::batch_lists::{AtOnce, BATCHES_PER_TILE, BatchFilm, Batches, Listed, halves};
+use super::dispatch_plan::{FIRST_SAMPLES, FIRST_SAMPLES_GPU, MAX_TILES, next_work};
 use super::sample_pipeline::SamplePipeline;
 use super::unfinished::NOWHERE;
 use super::unfinished_list::too_long;
 use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
-use crate::gpu::{Buffer, BufferUse, Gpu};
-use crate::schema::layout::{PixelBatch, Slice, TILE};
-
-const BATCHES_PER_TILE: usize = (TILE * TILE) as usize;
-
-/// The batches of one call.
-pub enum Batches<'b> {
-    List(&'b [PixelBatch]),
-    /// `count` samples from `first` on in both halves of `pixels` pixels.
-    Equal {
-        pixels: u32,
-        first: u32,
-        count: u32,
-    },
-}
-
-impl Batches<'_> {
-    /// Returns the samples of each tile of batches.
-    fn costs(&self) -> Vec<f64> {
-        match *self {
-            Batches::List(list) => list
-                .chunks(BATCHES_PER_TILE)
-                .map(|tile| tile.iter().map(|j| f64::from(j.count)).sum())
-                .collect(),
-            Batches::Equal { pixels, count, .. } => {
-                let cost = (BATCHES_PER_TILE * count as usize) as f64;
-                vec![cost; (2 * pixels as usize).div_ceil(BATCHES_PER_TILE)]
-            }
-        }
-    }
-
-    /// Returns one of them; a film is `width` pixels wide.
-    fn batch(&self, index: u32, width: u32) -> PixelBatch {
-        match *self {
-            Batches::List(list) => list[index as usize],
-            Batches::Equal { first, count, .. } => {
-                let place = PixelBatch::place_of(index / 2, width);
-                PixelBatch { place, part: PixelBatch::part_of(index % 2), first, count }
-            }
-        }
-    }
-
-    /// Returns the push constants of all, where those of the film are `film`.
-    fn slice(&self, film: Slice) -> Slice {
-        match *self {
-            Batches::List(list) => Slice { tiles: list.len() as u32, listed: 1, ..film },
-            Batches::Equal { pixels, first, count } => {
-                Slice { tiles: 2 * pixels, first_sample: first, sample_count: count, ..film }
-            }
-        }
-    }
-}
-
-/// Returns the halves of batches, of which the second one is empty if there is a single sample: threads beside it may have had
-/// more. If none has more, returns `None`: each has to be alone in its workgroup.
-pub fn halves<'b>(batches: impl Iterator<Item = &'b PixelBatch> + Clone) -> Option<Vec<[PixelBatch; 2]>> {
-    if batches.clone().all(|batch| batch.count == 1) {
-        return None;
-    }
-    let of = |batch: &PixelBatch| {
-        let half = batch.count.div_ceil(2);
-        let second = PixelBatch { first: batch.first + half, count: batch.count - half, ..*batch };
-        [PixelBatch { count: half, ..*batch }, second]
-    };
-    Some(batches.map(of).collect())
-}
-
-/// A film of batches, with the push constants of its submissions.
-#[derive(Clone)]
-pub struct BatchFilm {
-    pub buffer: Buffer,
-    pub slice: Slice,
-}
+use crate::gpu::{BindGroup, Buffer, BufferUse, DeviceKind, Gpu, RunTime};
+use crate::schema::layout::{PixelBatch, Slice};
 
 /// The passes of batches on a device.
 pub struct BatchPasses<'a> {
@@ -105,7 +35,8 @@ impl<'a> BatchPasses<'a> {
         width: u32,
         corner: [u32; 2],
     ) -> BatchPasses<'a> {
-        BatchPasses { gpu, resources, pipeline, width, corner, next: FIRST_SAMPLES }
+        let next = if gpu.info().kind == DeviceKind::Cpu { FIRST_SAMPLES } else { FIRST_SAMPLES_GPU };
+        BatchPasses { gpu, resources, pipeline, width, corner, next }
     }
 
     /// Returns the index of the last pass.
@@ -133,7 +64,18 @@ impl<'a> BatchPasses<'a> {
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
-        let mut left = self.pass(0, film, batches, report, progress)?;
+        let left = self.pass(0, film, batches, report, progress)?;
+        self.later_passes(film, left, report, progress)
+    }
+
+    /// Adds the samples of batches that the first pass leaves.
+    fn later_passes(
+        &mut self,
+        film: &BatchFilm,
+        mut left: Vec<PixelBatch>,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
         for pass in 1..=self.last() {
             left = self.pass(pass, film, &Batches::List(&left), report, progress)?;
         }
@@ -208,9 +150,79 @@ impl<'a> BatchPasses<'a> {
             }
             Batches::Equal { .. } => None,
         };
-        let SamplePipeline { pipelines, groups_per_tile, .. } = self.pipeline;
         let group = self.pipeline.bind(self.gpu, self.resources, &film.buffer, list.as_ref())?;
-        let (slice, costs) = (batches.slice(film.slice), batches.costs());
+        self.submit(pass, &group, &batches.slice(film.slice), &batches.costs(), report, progress)?;
+        self.left()
+    }
+
+    /// Returns the indices of the entries that the last submissions have left.
+    fn left(&self) -> Result<Vec<u32>> {
+        self.resources.unfinished.as_ref().map_or(Ok(Vec::new()), |list| list.take(self.gpu))
+    }
+
+    /// Adds all samples of batches that the device has listed.
+    pub fn run_listed(
+        &mut self,
+        film: &BatchFilm,
+        listed: &Listed,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        let left = self.listed_left(film, listed, report, progress)?;
+        let left = left.into_iter().map(|(_, batch)| batch).collect();
+        self.later_passes(film, left, report, progress)
+    }
+
+    /// Submits batches that the device has listed to the first pass. Returns those that it leaves, and their indices.
+    pub fn listed_left(
+        &mut self,
+        film: &BatchFilm,
+        listed: &Listed,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<Vec<(u32, PixelBatch)>> {
+        let group = self.pipeline.bind(self.gpu, self.resources, &film.buffer, Some(listed.batches))?;
+        let slice = listed.slice(film.slice);
+        self.submit(0, &group, &slice, &listed.costs(), report, progress)?;
+        let left = self.left()?;
+        if left.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut list = vec![PixelBatch::default(); listed.count() as usize];
+        self.gpu.read_buffer(listed.batches, 0, bytemuck::cast_slice_mut(&mut list))?;
+        Ok(left.into_iter().map(|index| (index, list[index as usize])).collect())
+    }
+
+    /// Returns the dispatch of batches with these costs, unless they take several submissions or some of them may be left.
+    pub fn at_once(&self, slice: Slice, costs: &[f64]) -> Option<AtOnce> {
+        let samples = costs.iter().sum::<f64>();
+        let fits = samples <= self.next && costs.len() <= MAX_TILES as usize;
+        let pipeline = self.pipeline.pipelines[0].clone();
+        let groups = [self.pipeline.groups_per_tile, costs.len() as u32, 1];
+        (fits && self.resources.unfinished.is_none()).then_some(AtOnce { pipeline, slice, groups, samples })
+    }
+
+    /// Binds a film and a list of batches.
+    pub fn bind(&self, film: &Buffer, list: &Buffer) -> Result<BindGroup> {
+        self.pipeline.bind(self.gpu, self.resources, film, Some(list))
+    }
+
+    /// Records the time of a submission with this number of samples.
+    pub fn learn(&mut self, samples: f64, time: RunTime) {
+        self.next = next_work(samples, time.wall_seconds);
+    }
+
+    /// Submits batches to one pass, as many tiles of them at once as previous timings allow.
+    fn submit(
+        &mut self,
+        pass: usize,
+        group: &BindGroup,
+        slice: &Slice,
+        costs: &[f64],
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        let SamplePipeline { pipelines, groups_per_tile, .. } = self.pipeline;
         let mut first = 0;
         while first < costs.len() {
             let (mut tiles, mut samples) = (1, costs[first]);
@@ -221,16 +233,16 @@ impl<'a> BatchPasses<'a> {
                 samples += costs[first + tiles];
                 tiles += 1;
             }
-            let slice = Slice { first_tile: first as u32, ..slice };
+            let slice = Slice { first_tile: first as u32, ..*slice };
             let groups = [*groups_per_tile, tiles as u32, 1];
-            let time = self.gpu.run(&pipelines[pass], &group, bytemuck::bytes_of(&slice), groups)?;
-            self.next = next_work(samples, time.wall_seconds);
+            let time = self.gpu.run(&pipelines[pass], group, bytemuck::bytes_of(&slice), groups)?;
+            self.learn(samples, time);
             report.add_slice(time);
             if progress.cancelled() {
                 return Err(Error::Interrupted);
             }
             first += tiles;
         }
-        self.resources.unfinished.as_ref().map_or(Ok(Vec::new()), |list| list.take(self.gpu))
+        Ok(())
     }
 }

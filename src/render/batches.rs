@@ -1,7 +1,8 @@
 //! Sums batches of samples into two halves on the device, for sampling rates that differ from pixel to pixel. The film
 //! is divided into pages of whole rows that fit the device's buffers; each page has its own list of batches.
 
-use super::batch_passes::{BatchFilm, BatchPasses, Batches, halves};
+use super::batch_lists::{AtOnce, BatchFilm, Batches, Listed};
+use super::batch_passes::BatchPasses;
 use super::sample_pipeline::SamplePipeline;
 use super::{Report, Resources};
 use crate::core::error::Result;
@@ -14,34 +15,24 @@ use crate::schema::layout::{PixelBatch, Slice};
 
 /// Four floats for each half.
 const PIXEL_BYTES: u64 = 32;
-const MAX_PAGE_BYTES: u64 = 64 << 20;
-/// Samples that one invocation takes of a batch that does not go to the film.
-const PART_SAMPLES: u32 = 64;
-/// Number of such batches whose sums one buffer holds.
-const MAX_PARTS: usize = 1 << 20;
-
-struct Page {
+/// Bytes of a page of a film that the host reads after each pass.
+pub const MAX_PAGE_BYTES: u64 = 64 << 20;
+pub(super) struct Page {
     rows: Rect,
-    film: BatchFilm,
+    pub(super) film: BatchFilm,
 }
 
 /// Takes batches of samples and holds their sums.
 pub struct BatchSampler<'a> {
-    gpu: &'a Gpu,
-    passes: BatchPasses<'a>,
-    pages: Vec<Page>,
-    size: [u32; 2],
+    pub(super) gpu: &'a Gpu,
+    pub(super) passes: BatchPasses<'a>,
+    pub(super) pages: Vec<Page>,
+    pub(super) size: [u32; 2],
     /// The mean of the samples' signs, if they have any: the film then also holds sums of negative samples, and counts.
-    mean_sign: Option<f64>,
+    pub(super) mean_sign: Option<f64>,
     /// Most samples that an invocation takes at once.
-    block: u32,
+    pub(super) block: u32,
 }
-
-/// A part of a batch that does not go to the film: the batch's index, and samples for one invocation.
-type Part = (usize, PixelBatch);
-
-/// Sums of each entry: of radiance, and if samples have signs also of negative samples, and the counts.
-type Planes = Vec<Vec<[f32; 4]>>;
 
 impl<'a> BatchSampler<'a> {
     pub fn new(
@@ -49,13 +40,13 @@ impl<'a> BatchSampler<'a> {
         pipeline: &'a SamplePipeline,
         resources: &'a Resources,
         scene: &PackedScene,
+        page_bytes: u64,
     ) -> Result<BatchSampler<'a>> {
         let limits = &gpu.info().limits;
         let [width, height] = scene.header.film_size.to_array();
         let planes = if scene.mean_sign.is_some() { 3 } else { 1 };
         let row = u64::from(width) * PIXEL_BYTES * planes;
-        let rows =
-            (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
+        let rows = (page_bytes.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
         let page = |rows: Rect| {
             let buffer = gpu.buffer("film", row * u64::from(rows.height), BufferUse::Storage)?;
             Ok(Page { rows, film: film_of(rows, buffer) })
@@ -97,61 +88,10 @@ impl<'a> BatchSampler<'a> {
         }
         Ok(())
     }
-
-    /// Takes parts by one pass. Returns their sums, and which ones are left.
-    fn parts_apart(
-        &mut self,
-        pass: usize,
-        parts: &[Part],
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<(Planes, Vec<u32>)> {
-        let list: Vec<PixelBatch> = parts.iter().map(|(_, batch)| *batch).collect();
-        let planes = if self.mean_sign.is_some() { 3 } else { 1 };
-        let plane = (list.len() * size_of::<[f32; 4]>()) as u64;
-        let buffer = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
-        // Positions are those of the whole picture.
-        let film = film_of(Rect::whole(self.size), buffer);
-        let left = self.passes.indices_left(pass, &film, &Batches::List(&list), report, progress)?;
-        let read = |kind: u64| {
-            let mut sums = vec![[0f32; 4]; list.len()];
-            self.gpu.read_buffer(&film.buffer, kind * plane, bytemuck::cast_slice_mut(&mut sums))?;
-            Ok(sums)
-        };
-        Ok(((0..planes).map(read).collect::<Result<_>>()?, left))
-    }
-
-    /// Adds parts of one sample to the sums of their batches, each part in a workgroup of its own.
-    fn parts_alone(
-        &mut self,
-        parts: &[Part],
-        sums: &mut [[[f64; 4]; 3]],
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<()> {
-        for part in parts {
-            let apart = self.passes.apart(&[part.1]);
-            let list: Vec<Part> = apart.into_iter().map(|batch| (part.0, batch)).collect();
-            let (planes, left) = self.parts_apart(self.passes.last(), &list, report, progress)?;
-            if !left.is_empty() {
-                let film = film_of(Rect::whole(self.size), self.pages[0].film.buffer.clone());
-                return Err(self.passes.too_long(&film, &part.1));
-            }
-            add(&mut sums[part.0], &planes, 0);
-        }
-        Ok(())
-    }
-}
-
-/// Adds one entry of the planes.
-fn add(sums: &mut [[f64; 4]; 3], planes: &Planes, entry: usize) {
-    for (sum, plane) in sums.iter_mut().zip(planes) {
-        (0..4).for_each(|c| sum[c] += f64::from(plane[entry][c]));
-    }
 }
 
 /// Returns a film of some rows.
-fn film_of(rows: Rect, buffer: Buffer) -> BatchFilm {
+pub(super) fn film_of(rows: Rect, buffer: Buffer) -> BatchFilm {
     let slice = Slice {
         band_y: rows.y,
         band_height: rows.height,
@@ -163,7 +103,7 @@ fn film_of(rows: Rect, buffer: Buffer) -> BatchFilm {
 
 /// Returns sums of radiance as if no sample had a sign, from the signed sums, those of negative samples alone, the sum
 /// of the signs and the number of samples.
-fn weighed([sums, negative, [signs, samples, _, _]]: [[f64; 4]; 3], mean_sign: f64) -> [f32; 4] {
+pub(super) fn weighed([sums, negative, [signs, samples, _, _]]: [[f64; 4]; 3], mean_sign: f64) -> [f32; 4] {
     let filtered = |c: usize| samples * filtered_mean(sums[c], negative[c], signs, samples, mean_sign);
     [filtered(0), filtered(1), filtered(2), sums[3]].map(|v| v as f32)
 }
@@ -211,60 +151,54 @@ impl BatchSampler<'_> {
         Ok(())
     }
 
-    /// Sums each batch separately, without adding it to the film.
-    pub fn sample_apart(
+    /// Adds the samples of batches that the device has listed, each to its pixel in its half. A film of several pages has
+    /// none.
+    pub fn sample_listed(
         &mut self,
-        batches: &[PixelBatch],
+        listed: &Listed,
         report: &mut Report,
         progress: &dyn Progress,
-    ) -> Result<Vec<[f32; 4]>> {
-        // Each part that an invocation takes has a slot of its own. Parts are short, so that neighbouring invocations
-        // work on one pixel and follow the same paths.
-        let most = self.block.min(PART_SAMPLES);
-        let mut parts: Vec<Part> = Vec::new();
-        for (i, batch) in batches.iter().enumerate() {
-            let firsts = (0..batch.count).step_by(most as usize);
-            parts.extend(firsts.map(|first| {
-                (i, PixelBatch { first: batch.first + first, count: most.min(batch.count - first), ..*batch })
-            }));
+    ) -> Result<()> {
+        self.passes.run_listed(&self.pages[0].film, listed, report, progress)
+    }
+
+    /// Sums each of the batches that the device has listed into an entry of `sums` of its own.
+    pub fn sample_listed_apart(
+        &mut self,
+        listed: &Listed,
+        sums: &Buffer,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        let film = film_of(Rect::whole(self.size), sums.clone());
+        let left = self.passes.listed_left(&film, listed, report, progress)?;
+        let batches: Vec<PixelBatch> = left.iter().map(|(_, batch)| *batch).collect();
+        let taken = self.sample_apart(&batches, report, progress)?;
+        for ((index, _), sum) in left.iter().zip(taken) {
+            self.gpu.write_buffer(sums, 16 * u64::from(*index), bytemuck::bytes_of(&sum))?;
         }
-        let mut sums = vec![[[0f64; 4]; 3]; batches.len()];
-        let mut pass = 0;
-        while !parts.is_empty() {
-            let mut left: Vec<Part> = Vec::new();
-            for parts in parts.chunks(MAX_PARTS) {
-                let (planes, unfinished) = self.parts_apart(pass, parts, report, progress)?;
-                let mut is_left = vec![false; parts.len()];
-                unfinished.iter().for_each(|&at| is_left[at as usize] = true);
-                for (at, &(i, batch)) in parts.iter().enumerate() {
-                    if !is_left[at] {
-                        add(&mut sums[i], &planes, at);
-                    } else {
-                        left.push((i, batch));
-                    }
-                }
-            }
-            if pass == self.passes.last() && !left.is_empty() {
-                left = match halves(left.iter().map(|(_, batch)| batch)) {
-                    Some(pairs) => {
-                        let of =
-                            left.iter().zip(pairs).flat_map(|(&(i, _), pair)| pair.map(|half| (i, half)));
-                        of.filter(|(_, half)| half.count > 0).collect()
-                    }
-                    None => {
-                        self.parts_alone(&left, &mut sums, report, progress)?;
-                        Vec::new()
-                    }
-                };
-            }
-            parts = left;
-            pass = self.passes.last().min(pass + 1);
+        Ok(())
+    }
+
+    /// Returns the dispatch of the same number of samples of both halves of all pixels, if there is one.
+    pub fn all_at_once(&self, first: u32, count: u32) -> Option<AtOnce> {
+        let film = &self.pages[0].film;
+        let batches = Batches::Equal { pixels: self.size[0] * self.size[1], first, count };
+        let at_once = || self.passes.at_once(batches.slice(film.slice), &batches.costs());
+        (count <= self.block).then(at_once).flatten()
+    }
+
+    /// Returns the dispatch of batches that the device has listed, if there is one.
+    pub fn listed_at_once(&self, listed: &Listed) -> Option<AtOnce> {
+        self.passes.at_once(listed.slice(self.pages[0].film.slice), &listed.costs())
+    }
+
+    /// Returns the sums of both halves of all pixels, if they are in one buffer.
+    pub fn film(&self) -> Option<&Buffer> {
+        match self.pages.as_slice() {
+            [page] => Some(&page.film.buffer),
+            _ => None,
         }
-        let finish = |sums: [[f64; 4]; 3]| match self.mean_sign {
-            Some(mean) => weighed(sums, mean),
-            None => sums[0].map(|v| v as f32),
-        };
-        Ok(sums.into_iter().map(finish).collect())
     }
 
     /// Reads the sums of all batches so far.

@@ -10,6 +10,8 @@ use crate::schema::layout::TILE;
 const TARGET_SECONDS: f64 = 0.15;
 /// Samples in the first slice, before any timing.
 pub(super) const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
+/// The same on a GPU, of the slowest of which a sample takes some nanoseconds.
+pub(super) const FIRST_SAMPLES_GPU: f64 = (1u32 << 23) as f64;
 /// Largest ratio of a slice's work to that of the previous one.
 const GROWTH: f64 = 16.0;
 /// Lower bound of `maxComputeWorkGroupCount` on all devices.

@@ -7,7 +7,7 @@ use super::backend::DeviceBackend;
 use super::layer_samples::estimates;
 pub use super::layer_surfaces::MAX_SURFACES;
 use super::layer_surfaces::{Take, count_surfaces, looking};
-use super::load::{Devices, Loaded, load};
+use super::load::{Loaded, load};
 use super::options::{On, Options};
 use super::picture::Picture;
 use super::session::Session;
@@ -40,7 +40,7 @@ pub fn render_layers(
     let mut found: Vec<(Aov, Layer)> = Vec::with_capacity(wanted.len());
     let centres: Vec<Aov> = wanted.iter().copied().filter(|aov| aov.at_centre().is_some()).collect();
     if !centres.is_empty() {
-        let mut loaded = load(&at_centres(scene), options, Devices::open(on))?;
+        let mut loaded = load(&at_centres(scene), options, on)?;
         let mut measuring = Measuring::open(&mut loaded, options)?;
         for aov in centres {
             let quantity = aov.at_centre().unwrap_or_default();
@@ -56,7 +56,7 @@ pub fn render_layers(
             Aov::Albedo => {
                 let lightless = lightless(scene);
                 let samples = lightless.sampling.samples();
-                let mut loaded = load(&lightless, options, Devices::open(on))?;
+                let mut loaded = load(&lightless, options, on)?;
                 let mut measuring = Measuring::open(&mut loaded, options)?;
                 let film = measuring.measure(Quantity::Albedo, &mut |backend, size| {
                     Ok(Fixed { samples }.render(backend, Film::new(size[0], size[1], 0), &steps.next())?.film)
@@ -65,7 +65,7 @@ pub fn render_layers(
             }
             Aov::Surfaces => {
                 let looking = looking(lightless(scene));
-                let mut loaded = load(&looking, options, Devices::open(on))?;
+                let mut loaded = load(&looking, options, on)?;
                 let mut measuring = Measuring::open(&mut loaded, options)?;
                 let film = measuring.surfaces(&looking, &steps.next())?;
                 layer(aov, &film)
@@ -81,7 +81,7 @@ pub fn render_layers(
 
 /// Returns the packed scene whose camera rays, one through each pixel's centre, have the footprint of the whole pixel.
 pub fn packed_at_centres(scene: &Scene, options: &Options) -> Result<PackedScene> {
-    Ok(load(&at_centres(scene), options, Devices::open(&[On::Oracle]))?.packed)
+    Ok(load(&at_centres(scene), options, &[On::Oracle])?.packed)
 }
 
 /// The progress of one layer after the other.

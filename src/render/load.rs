@@ -3,7 +3,6 @@
 
 use std::collections::HashSet;
 use std::sync::mpsc;
-use std::thread::JoinHandle;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -11,60 +10,16 @@ use rayon::prelude::*;
 use super::options::{On, Options};
 use crate::core::error::Result;
 use crate::core::film::Film;
-use crate::gpu::{DeviceSelect, Gpu};
+use crate::gpu::Gpu;
 use crate::pack::{self, MipPlacement, PackedScene};
-use crate::scene::model::{Algorithm, Scene};
+use crate::scene::model::Scene;
 use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::AllowedFloats;
 use crate::texture::load::load_with_notes;
 
 /// Pixels of films whose memory is made present beforehand, and of a page of that memory.
-const LARGE_FILM: usize = 1 << 21;
+const LARGE_FILM: usize = 1 << 16;
 const PIXELS_OF_PAGE: usize = 4096 / size_of::<[f32; 3]>();
-
-/// The devices among some backends, while a thread of their own opens them. It ends before they are dropped: a driver
-/// must not be at work when the process ends.
-pub struct Devices {
-    /// The number of backends.
-    backends: usize,
-    opening: Option<JoinHandle<Opened>>,
-}
-
-/// Open devices, and the seconds that they took.
-type Opened = (Result<Vec<Gpu>>, f64);
-
-impl Devices {
-    /// Begins to open the devices, so that a scene can be read meanwhile.
-    pub fn open(on: &[On]) -> Devices {
-        let selects: Vec<DeviceSelect> = on
-            .iter()
-            .filter_map(|on| match on {
-                On::Device(select) => Some(select.clone()),
-                On::Oracle => None,
-            })
-            .collect();
-        let open = move || {
-            let start = Instant::now();
-            let gpus = selects.iter().map(Gpu::open).collect();
-            (gpus, if selects.is_empty() { 0.0 } else { start.elapsed().as_secs_f64() })
-        };
-        Devices { backends: on.len(), opening: Some(std::thread::spawn(open)) }
-    }
-
-    fn wait(mut self) -> Opened {
-        let opened = self.opening.take().map(JoinHandle::join);
-        opened.map_or((Ok(Vec::new()), 0.0), |opened| {
-            opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        })
-    }
-}
-
-impl Drop for Devices {
-    fn drop(&mut self) {
-        // What failed is not needed any more.
-        let _ = self.opening.take().map(JoinHandle::join);
-    }
-}
 
 /// The inputs of a render, before anything is uploaded.
 pub(super) struct Loaded {
@@ -78,7 +33,7 @@ pub(super) struct Loaded {
 }
 
 /// Loads the scene while the devices open.
-pub(super) fn load(scene: &Scene, options: &Options, devices: Devices) -> Result<Loaded> {
+pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
     std::thread::scope(|scope| {
         let start = Instant::now();
         let (tell, told) = mpsc::channel();
@@ -86,11 +41,15 @@ pub(super) fn load(scene: &Scene, options: &Options, devices: Devices) -> Result
             let packed = pack(scene, options, || told.recv().unwrap_or_default());
             (packed, start.elapsed().as_secs_f64())
         });
-        let backends = devices.backends;
-        let (gpus, startup) = devices.wait();
+        let selects = on.iter().filter_map(|on| match on {
+            On::Device(select) => Some(select),
+            On::Oracle => None,
+        });
+        let gpus: Result<Vec<Gpu>> = selects.map(Gpu::open).collect();
+        let startup = if on == [On::Oracle] { 0.0 } else { start.elapsed().as_secs_f64() };
         // Several backends, or the oracle, read the same levels: those that the host generates.
         let mip_chains = match gpus.as_deref() {
-            Ok([gpu]) if backends == 1 => options.mips.mip_chains(gpu.info()),
+            Ok([gpu]) if on.len() == 1 => options.mips.mip_chains(gpu.info()),
             _ => MipPlacement::Host,
         };
         // The receiver is gone if the scene does not need it.
@@ -122,26 +81,25 @@ fn pack(
 }
 
 /// Loads as [`load`] does, and makes an empty film of the picture meanwhile.
-pub(super) fn load_with_film(scene: &Scene, options: &Options, devices: Devices) -> Result<(Loaded, Film)> {
+pub(super) fn load_with_film(scene: &Scene, options: &Options, on: &[On]) -> Result<(Loaded, Film)> {
     std::thread::scope(|scope| {
         let film = scope.spawn(|| {
             let whole = [scene.width, scene.height];
             let crop = options.crop.filter(|crop| crop.check_within(whole).is_ok());
             let size = crop.map_or(whole, |crop| [crop.width, crop.height]);
-            let fills_once = !matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
-            empty_film(size, fills_once)
+            empty_film(size)
         });
-        let loaded = load(scene, options, devices);
+        let loaded = load(scene, options, on);
         let film = film.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         loaded.map(|loaded| (loaded, film))
     })
 }
 
-/// Returns a black film. The system gives memory page by page as it is written: if `touched`, all of a large film is
-/// there already when the picture is read back.
-fn empty_film([width, height]: [u32; 2], touched: bool) -> Film {
+/// Returns a black film. The system gives memory page by page as it is written: all of a large film is there already when
+/// the picture is read back.
+fn empty_film([width, height]: [u32; 2]) -> Film {
     let mut film = Film::new(width, height, 0);
-    if touched && film.pixels.len() >= LARGE_FILM {
+    if film.pixels.len() >= LARGE_FILM {
         film.pixels.par_chunks_mut(256 * PIXELS_OF_PAGE).for_each(|pixels| {
             for page in pixels.chunks_mut(PIXELS_OF_PAGE) {
                 *std::hint::black_box(&mut page[0]) = [0.0; 3];

@@ -4,12 +4,15 @@
 
 mod aov;
 mod backend;
+mod batch_apart;
+mod batch_lists;
 mod batch_passes;
 mod batches;
 mod beams;
 mod diagnostics;
 mod dispatch_plan;
 mod film_buffer;
+mod goal;
 mod images;
 mod layer_samples;
 mod layer_surfaces;
@@ -51,14 +54,13 @@ use crate::schema::specialization::Constant;
 
 pub use backend::DeviceBackend;
 pub use images::can_sample;
-pub use load::Devices;
 pub(crate) use mip_chain::{MipGenerator, MipSource};
 pub use options::{On, Options};
-pub use picture::{Picture, render_scene, render_scene_on};
+pub use picture::{Picture, render_scene};
 pub use plan::integrator;
 pub(crate) use resources::Resources;
 pub use session::{Prepared, Session};
-pub use tuning::{MipChoice, TexelChoice, Tuning};
+pub use tuning::{EstimateChoice, MipChoice, TexelChoice, Tuning};
 
 /// Wall-clock seconds by stage, in order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

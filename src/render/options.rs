@@ -29,6 +29,8 @@ pub struct Options {
     pub crop: Option<Rect>,
     /// The end of adaptive sampling; `None` is the scene's number of samples.
     pub goal: Option<Goal>,
+    /// Tells the samples and errors of single pixels, of adaptive sampling.
+    pub tells_pixels: bool,
     /// Accepts textures with NaN and infinite texels.
     pub allow_nonfinite: bool,
     /// Keeps all features in the pipelines.
@@ -45,6 +47,7 @@ impl Default for Options {
         Options {
             crop: None,
             goal: None,
+            tells_pixels: true,
             allow_nonfinite: false,
             keep_everything: false,
             diagnosed: false,

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use super::Report;
 use super::backend::DeviceBackend;
-use super::load::{Devices, Loaded, load_with_film};
+use super::load::{Loaded, load_with_film};
 use super::options::{On, Options};
 use super::plan::integrator;
 use super::session::{Prepared, Session};
@@ -36,7 +36,7 @@ pub struct Picture {
     pub messages: Vec<String>,
     /// A line on how each texture is stored.
     pub texture_lines: Vec<String>,
-    /// Samples and errors of single pixels, of adaptive sampling.
+    /// Samples and errors of single pixels, of adaptive sampling, if they were asked for.
     pub estimates: Option<PixelEstimates>,
     /// For each texture its name and the number of texels that are NaN or infinite.
     pub nonfinite: Vec<(String, u64)>,
@@ -94,18 +94,7 @@ impl Working<'_> {
 /// Renders a scene on one backend, or on several at once. Strips of the picture are assigned to the backends
 /// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
-    render_scene_on(scene, options, on, Devices::open(on), progress)
-}
-
-/// Renders a scene on backends whose devices are being opened.
-pub fn render_scene_on(
-    scene: &Scene,
-    options: &Options,
-    on: &[On],
-    devices: Devices,
-    progress: &dyn Progress,
-) -> Result<Picture> {
-    let (loaded, film) = load_with_film(scene, options, devices)?;
+    let (loaded, film) = load_with_film(scene, options, on)?;
     let Loaded { gpus, mut packed, doubts, startup, load } = loaded;
     packed.diagnosed = options.diagnosed;
     let texture_lines = packed.texture_lines();
@@ -146,7 +135,7 @@ fn integrate(
     gpus: &[Gpu],
     progress: &dyn Progress,
 ) -> Result<Integration> {
-    let integrator = integrator(&packed, options.goal);
+    let integrator = integrator(&packed, options.goal, options.tells_pixels);
     let (double, has_meshes) = (packed.double, !packed.mesh_texels.is_empty());
     // The last backend takes the scene itself, the others copies.
     let mut scenes = vec![packed.clone(); on.len().saturating_sub(1)];

@@ -6,11 +6,14 @@ use crate::pack::{PackedScene, Schedule};
 use crate::scene::model::Algorithm;
 
 /// Returns the integrator of the scene's algorithm. `goal` applies to adaptive sampling; by default it is the scene's
-/// number of samples.
-pub fn integrator(scene: &PackedScene, goal: Option<Goal>) -> Box<dyn Integrator> {
+/// number of samples; it tells the estimates of single pixels if `tells_pixels` is true.
+pub fn integrator(scene: &PackedScene, goal: Option<Goal>, tells_pixels: bool) -> Box<dyn Integrator> {
     let samples = scene.samples;
     match scene.schedule {
-        Schedule::Batches => Box::new(Adaptive { goal: goal.unwrap_or(Goal::Samples(samples)) }),
+        Schedule::Batches => {
+            let goal = goal.unwrap_or(Goal::Samples(samples));
+            Box::new(Adaptive { goal, tells_pixels })
+        }
         Schedule::Tiles if scene.beams => Box::new(Beam { samples }),
         Schedule::Tiles if scene.algorithm == Algorithm::Cone => Box::new(Cone { samples }),
         Schedule::Tiles => Box::new(Fixed { samples }),

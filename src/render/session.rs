@@ -15,9 +15,10 @@ use crate::scene::model::Scene;
 use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::Header;
 
-use super::batches::BatchSampler;
+use super::batches::{BatchSampler, MAX_PAGE_BYTES};
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
+use super::goal::GoalSteps;
 use super::loop_budget::samples_at_once;
 use super::resources::{Resources, shader_for};
 use super::sample_pipeline::SamplePipeline;
@@ -64,6 +65,8 @@ pub struct Prepared<'s, 'a> {
     /// The session's scene with this choice.
     pub(super) scene: PackedScene,
     pub(super) work: Work<'a>,
+    /// The steps of sampling to a goal, where the device takes them itself.
+    pub(super) goal: Option<GoalSteps>,
     /// The report of a render so far: its pipeline is compiled, nothing is rendered.
     pub(super) report: Report,
 }
@@ -164,7 +167,13 @@ impl<'a> Session<'a> {
             }
             Schedule::Batches => Work::Batches(self.sample_pipeline(scene, &features)?),
         };
-        let mut prepared = Prepared { session: self, scene: scene.clone(), work, report };
+        let goal = match work {
+            Work::Batches(_) if self.tuning.device_estimates(self.gpu.info()) => {
+                GoalSteps::new(self.gpu, scene)?
+            }
+            _ => None,
+        };
+        let mut prepared = Prepared { session: self, scene: scene.clone(), work, goal, report };
         prepared.warm_up()?;
         drop(turn);
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
@@ -288,7 +297,9 @@ impl Prepared<'_, '_> {
 
     /// Returns the sampler of batches for a pipeline of this choice of samples.
     pub(super) fn sampler<'a>(&'a self, pipeline: &'a SamplePipeline) -> Result<BatchSampler<'a>> {
-        BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene)
+        // What stays on the device need not be in pages.
+        let page_bytes = if self.goal.is_some() { u64::MAX } else { MAX_PAGE_BYTES };
+        BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene, page_bytes)
     }
 
     /// Runs the pipeline once, so that lazy compilation in the driver happens now.

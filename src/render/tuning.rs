@@ -26,6 +26,15 @@ named_enum! {
     }
 }
 
+named_enum! {
+    /// Where errors are estimated and samples distributed when sampling to a goal.
+    pub enum EstimateChoice {
+        Auto = "auto",
+        Host = "host",
+        Device = "device",
+    }
+}
+
 /// Number of texels from which on the host takes longer for a mip chain than a driver for compiling its pipeline.
 const LARGE: u64 = 1 << 20;
 
@@ -50,6 +59,7 @@ pub struct Tuning {
     pub texels: TexelChoice,
     /// Width and height of a workgroup; `None` chooses by the device.
     pub group: Option<[u32; 2]>,
+    pub estimates: EstimateChoice,
     /// Largest length of a texel buffer in words, if less than the device allows.
     pub texel_words: Option<u64>,
     /// Most samples of a pixel that an invocation takes at once, in place of what its loops allow.
@@ -58,11 +68,26 @@ pub struct Tuning {
 
 impl Default for Tuning {
     fn default() -> Self {
-        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None, samples_at_once: None }
+        Tuning {
+            texels: TexelChoice::Auto,
+            group: None,
+            estimates: EstimateChoice::Auto,
+            texel_words: None,
+            samples_at_once: None,
+        }
     }
 }
 
 impl Tuning {
+    /// Returns true if the device estimates errors itself. A CPU device has the host's own cores, which are faster without it.
+    pub fn device_estimates(&self, device: &DeviceInfo) -> bool {
+        match self.estimates {
+            EstimateChoice::Auto => device.kind != DeviceKind::Cpu,
+            EstimateChoice::Host => false,
+            EstimateChoice::Device => true,
+        }
+    }
+
     /// Parses `64x1`: powers of two whose product is between 8 and 1024 and that divide a tile.
     pub fn parse_group(text: &str) -> Result<[u32; 2]> {
         let parsed = text.split_once('x').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 use std::time::Instant;
 
-use super::FilmSums;
+use super::{FilmSums, Pixels};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
@@ -66,6 +66,16 @@ pub trait Backend: Send {
 
     /// Reads the sums of all batches so far.
     fn read(&mut self, sums: &mut HalfSums) -> Result<()>;
+
+    /// Returns true if it keeps the pixels of a picture itself: [`Backend::kept_pixels`] then returns them.
+    fn keeps_pixels(&self) -> bool {
+        false
+    }
+
+    /// Returns the pixels that it keeps; `None` if the host has to.
+    fn kept_pixels(&mut self) -> Result<Option<Box<dyn Pixels + '_>>> {
+        Ok(None)
+    }
 
     /// Returns the samples of each half of each pixel in the first pass, at most `most`: fewer for pixels in which
     /// little can be missed.

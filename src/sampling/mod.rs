@@ -2,9 +2,11 @@
 //! samples. Output: sums, merged in an order that depends on the ranges alone.
 
 mod backend;
+mod pixels;
 mod scheduler;
 mod sums;
 
 pub use backend::{Backend, HalfSums, PilotRun};
+pub use pixels::{Aim, AuditPlan, Audited, Drawn, Estimated, Pixels, Plan, Planned, Raises};
 pub use scheduler::Scheduler;
 pub use sums::{Block, Count, FilmSums, PixelSums, Signed};

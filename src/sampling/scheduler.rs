@@ -5,7 +5,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::backend::batches_of_all;
-use super::{Backend, FilmSums, HalfSums, PilotRun};
+use super::{Backend, FilmSums, HalfSums, PilotRun, Pixels};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
@@ -212,6 +212,17 @@ impl Backend for Scheduler<'_> {
             }
         }
         Ok(())
+    }
+
+    fn keeps_pixels(&self) -> bool {
+        matches!(self.members.as_slice(), [member] if member.keeps_pixels())
+    }
+
+    fn kept_pixels(&mut self) -> Result<Option<Box<dyn Pixels + '_>>> {
+        match self.members.as_mut_slice() {
+            [member] => member.kept_pixels(),
+            _ => Ok(None),
+        }
     }
 
     fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {

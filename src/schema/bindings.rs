@@ -27,6 +27,13 @@ bindings! {
     MESHES = 12;
     /// Entries that a submission leaves unfinished.
     UNFINISHED = 13;
+    /// For sampling to a goal: what is kept of each pixel, of the whole picture, and the pixels that beams resolved.
+    GOAL_PIXELS = 1;
+    GOAL_TOTALS = 2;
+    GOAL_RESOLVED = 3;
+    /// Parts of long batches, and their sums.
+    GOAL_PARTS = 5;
+    GOAL_PART_SUMS = 6;
     /// For generating mip chains: the texture as in the texel buffer.
     MIP_WORDS = 0;
     /// Values of two levels, between which the passes alternate.

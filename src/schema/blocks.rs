@@ -56,6 +56,39 @@ blocks! {
         halved,
     }
 
+    /// One step of a pass of sampling to a goal (`glsl/goal`); reals are given by their bits.
+    GoalStep {
+        /// Of the picture, in pixels.
+        width,
+        height,
+        /// Parts of the picture with partial sums.
+        parts,
+        /// The number of passes so far.
+        pass,
+        /// 1: something small and bright is known to be in the scene.
+        bright,
+        /// 1: beams have resolved some pixels.
+        resolves,
+        /// Entries of a list, columns of reals, or samples.
+        count,
+        exponent,
+        /// What is wanted: the sum of the pixels' variances, or samples.
+        aim,
+        /// 1: `aim` is that of the variances.
+        aims_at_error,
+        /// 1: counts are chosen; 0: they are there.
+        chooses,
+        growth,
+        most,
+        /// The rates of an audit's draws, and the first draw.
+        even,
+        of_variance,
+        start,
+        /// The samples of an audit, and the `part` of its first means' batches.
+        budget,
+        batch_part,
+    }
+
     /// The number of results of a probe.
     QueryRange {
         count,

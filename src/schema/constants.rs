@@ -30,6 +30,80 @@ constants! {
     BATCH_BARE: u32 = 2;
     /// In a batch's part: its sums go to its own entry in the list, not to the pixel's half.
     BATCH_APART: u32 = 4;
+    /// Most samples of a half of a pixel that is sampled to a goal: f32 sums of this many are still accurate enough; and the
+    /// octaves of their numbers.
+    MAX_HALF_SAMPLES: u32 = 65536;
+    COUNT_OCTAVES: u32 = 18;
+    /// Cells along each side of the picture from which the pixels of an audit are drawn, parts of an expected draw, and the
+    /// least number of samples of each of its two means.
+    DRAW_CELLS: u32 = 32;
+    DRAW_UNIT: u32 = 524288;
+    DRAW_MIN_SAMPLES: u32 = 64;
+    /// Threads of a workgroup of `glsl/goal`.
+    GOAL_THREADS: u32 = 256;
+    /// Pixels on each side of the centre of a window whose variances are pooled, and of the neighbourhood of a discovery and
+    /// of an audited pixel.
+    GOAL_RADIUS: u32 = 3;
+    GOAL_AUDIT_RADIUS: u32 = 4;
+    /// Side of the parts of a picture in which pixels of similar counts are pooled, and the number from which on samples count
+    /// as many there.
+    GOAL_PART_SIDE: u32 = 32;
+    GOAL_MANY_SAMPLES: u32 = 64;
+    /// Length of a run of pixels of which one is visited.
+    GOAL_RUN: u32 = 128;
+    /// Bins of multipliers, in eighths of an octave, and the one that begins at 1.
+    GOAL_BINS: u32 = 512;
+    GOAL_MIDDLE_BIN: u32 = 128;
+    /// Classes of batches by their length, two in each octave; from which one on they are taken in parts, by several threads
+    /// at once, and most samples of a part.
+    GOAL_CLASSES: u32 = 36;
+    GOAL_LONG_CLASS: u32 = 13;
+    GOAL_PART_SAMPLES: u32 = 64;
+    /// Arrays of words that a device keeps of each pixel: samples of a half, now and after the pass; the bits of the variances of
+    /// its mean and of a sample; that of a visited pixel's sample before, in two arrays by turns; the mean's variances by the halves
+    /// and by the samples, and both summed over rows of windows.
+    GOAL_COUNTS: u32 = 0;
+    GOAL_NEXT: u32 = 1;
+    GOAL_VARIANCES: u32 = 2;
+    GOAL_SPREADS: u32 = 3;
+    GOAL_VISITED: u32 = 4;
+    GOAL_PAIRS: u32 = 6;
+    GOAL_ROWS: u32 = 8;
+    GOAL_ARRAYS: u32 = 10;
+    /// Words about the whole picture. Sums over all pixels: of the squared differences of the halves and their squares, of
+    /// variances, of resolved pixels, of 1 / cost and of cost times variance, where the cost is that of an audit's draw; then the
+    /// largest count and that of all bits inverted, and sums of the lower and the upper half of the counts' bits.
+    GOAL_DIFFERENCE: u32 = 0;
+    GOAL_SQUARES: u32 = 1;
+    GOAL_VARIANCE: u32 = 2;
+    GOAL_RESOLVED_PIXELS: u32 = 3;
+    GOAL_INVERSE_COST: u32 = 4;
+    GOAL_COST_VARIANCE: u32 = 5;
+    GOAL_MOST: u32 = 6;
+    GOAL_LEAST: u32 = 7;
+    GOAL_LOWER: u32 = 8;
+    GOAL_UPPER: u32 = 9;
+    GOAL_COLUMNS: u32 = 10;
+    /// Of a plan: its multiplier, samples in all, and the pixels that gain some; parts of batches; samples of an audit's draws; the pixels of each class, and how many of them
+    /// are listed; the bins.
+    GOAL_MULTIPLIER: u32 = 16;
+    GOAL_PLANNED_SAMPLES: u32 = 17;
+    GOAL_GAINING: u32 = 18;
+    GOAL_PART_COUNT: u32 = 19;
+    GOAL_DRAW_COST: u32 = 20;
+    GOAL_CLASSES_AT: u32 = 32;
+    GOAL_BINS_AT: u32 = 128;
+    /// Of an audit: the least variances of a sample by the octaves of counts, and pixels with the variance of a sample; sums of
+    /// expected draws by octaves and cells; the number of draws, and `GOAL_DRAW_WORDS` words of each.
+    GOAL_FLOORS: u32 = 1664;
+    GOAL_RAISES: u32 = 1696;
+    GOAL_MASSES: u32 = 14016;
+    GOAL_DRAWN: u32 = 32448;
+    GOAL_DRAWS: u32 = 32464;
+    GOAL_DRAW_WORDS: u32 = 24;
+    MAX_GOAL_DRAWS: u32 = 6144;
+    /// Partial sums of all columns, one after the other.
+    GOAL_PARTIALS: u32 = 179920;
     /// Position of the stream of samples in a batch's part; streams are as independent as different seeds.
     BATCH_STREAM_SHIFT: u32 = 8;
 

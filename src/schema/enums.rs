@@ -34,6 +34,35 @@ enums! {
         NRooks = "n-rooks",
     }
 
+    /// A step of a pass of sampling to a goal.
+    STEP: GoalStepKind {
+        TakeCounts = "take-counts",
+        Replace = "replace",
+        See = "see",
+        SumRows = "sum-rows",
+        FindVariances = "find-variances",
+        FindUnseen = "find-unseen",
+        SumPartials = "sum-partials",
+        SpreadDiscoveries = "spread-discoveries",
+        RaiseListed = "raise-listed",
+        RaiseToFloors = "raise-to-floors",
+        FillBins = "fill-bins",
+        Solve = "solve",
+        ChooseCounts = "choose-counts",
+        ListBatches = "list-batches",
+        ListParts = "list-parts",
+        EndParts = "end-parts",
+        AddParts = "add-parts",
+        PlanAll = "plan-all",
+        SumCapped = "sum-capped",
+        WeighCells = "weigh-cells",
+        SumMasses = "sum-masses",
+        DrawPixels = "draw-pixels",
+        DrawParts = "draw-parts",
+        SumDraws = "sum-draws",
+        FindMeans = "find-means",
+    }
+
     /// The distribution of samples over invocations.
     #[derive(Default)]
     SCHEDULE: Schedule {

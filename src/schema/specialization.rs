@@ -110,6 +110,7 @@ specialization! {
     /// The device ends the loops of threads that turn often.
     LoopsEnd = "LOOPS_END", flag, "test for loops that the device ended";
     OpaqueUniforms = "OPAQUE_UNIFORMS", id, "numbers whose uniformity is hidden";
+    GoalStepKind = "GOAL_STEP", id, "step of a pass of sampling to a goal";
     MipChannels = "CHANNELS", id, "channels of a mip chain";
     MipComponentBytes = "COMPONENT_BYTES", id, "bytes of a mip chain's channels";
     MipSrgb = "SRGB", id, "a mip chain of sRGB codes";

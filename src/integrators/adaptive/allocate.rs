@@ -4,15 +4,7 @@
 
 use rayon::prelude::*;
 
-use super::estimate::Estimate;
-
-/// The aim of a pass.
-#[derive(Clone, Copy, Debug)]
-pub enum Aim {
-    /// Samples of both halves of all pixels.
-    Samples(f64),
-    Mse(f64),
-}
+use crate::sampling::Aim;
 
 /// Pixels sorted into bins by the multiplier at which they begin to gain samples.
 pub struct Allocation {
@@ -39,6 +31,11 @@ impl Bin {
     }
 }
 
+/// Returns the ratio in which a pixel has its share of the samples; `p` is the exponent of the error.
+pub fn weight(variance: f32, count: u32, p: f32) -> f32 {
+    (variance * (count as f32).powf(p)).powf(1.0 / (1.0 + p))
+}
+
 /// Returns the least factor by which a count grows: fewer extra samples would not pay for their batch and
 /// would be lost to rounding.
 fn min_growth(now: f64) -> f64 {
@@ -51,28 +48,21 @@ const BINS: usize = 1024;
 const BINS_AN_OCTAVE: f64 = 8.0;
 
 impl Allocation {
-    pub fn new(estimate: &Estimate, counts: &[u32], exponent: f64) -> Allocation {
+    pub fn new(variances: &[f32], counts: &[u32], exponent: f64) -> Allocation {
         let p = exponent as f32;
         let mut weights = vec![0.0; counts.len()];
-        let chunks =
-            weights.par_chunks_mut(PIXELS_PER_TASK).zip(estimate.variances.par_chunks(PIXELS_PER_TASK));
+        let chunks = weights.par_chunks_mut(PIXELS_PER_TASK).zip(variances.par_chunks(PIXELS_PER_TASK));
         let bins = chunks.zip(counts.par_chunks(PIXELS_PER_TASK)).map(|((weights, variances), counts)| {
             let mut bins = vec![Bin::default(); BINS];
             for ((weight, &variance), &count) in weights.iter_mut().zip(variances).zip(counts) {
                 let n = count as f32;
-                let falling = variance * n.powf(p);
-                *weight = falling.powf(1.0 / (1.0 + p));
+                *weight = self::weight(variance, count, p);
                 bins[bin_of(min_growth(n.into()) * f64::from(n / *weight))].add(variance, n, *weight);
             }
             bins
         });
         let bins = chunked_sum(bins.collect());
         Allocation { weights, bins, exponent, pixels: counts.len() as f64 }
-    }
-
-    /// Returns the ratios in which the samples are distributed over the pixels.
-    pub fn weights(&self) -> &[f32] {
-        &self.weights
     }
 
     /// Returns the total number of samples that meets the aim.
@@ -154,9 +144,7 @@ mod tests {
     use super::*;
 
     fn allocation(variances: &[f32], counts: &[u32], exponent: f64) -> Allocation {
-        let estimate =
-            Estimate { variances: variances.to_vec(), spreads: Vec::new(), mse: 0.0, deviation: 0.0 };
-        Allocation::new(&estimate, counts, exponent)
+        Allocation::new(variances, counts, exponent)
     }
 
     /// Returns the number of samples after the pass and the error that the model predicts.

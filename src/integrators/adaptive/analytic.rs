@@ -2,12 +2,10 @@
 //! on a part of the picture. Output: resolved pixels, which have no variance and gain no samples.
 
 use super::Goal;
-use super::allocate::{Aim, Allocation};
-use super::estimate::Estimate;
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
-use crate::sampling::{Backend, HalfSums, PilotRun};
+use crate::sampling::{PilotRun, Pixels};
 
 /// Seconds of sampling that must remain for a pilot run to be worth compiling its pipeline.
 const WORTH_A_PILOT: f64 = 1.0;
@@ -66,85 +64,38 @@ impl Outlook {
     }
 }
 
-/// The resolved pixels.
+/// The decision whether pixels are resolved.
 #[derive(Default)]
-pub struct AnalyticPixels {
-    /// Red, green, blue, and 1 if samples are needed. Empty before anything is resolved.
-    pixels: Vec<[f32; 4]>,
+pub struct Resolution {
+    is_done: bool,
     /// The pilot run, once it was made; `Some(None)` if pixels cannot be resolved at all.
     pilot: Option<Option<PilotRun>>,
 }
 
-impl AnalyticPixels {
-    pub fn resolved(&self) -> usize {
-        self.pixels.iter().filter(|p| p[3] == 0.0).count()
-    }
-
-    /// Returns true if the pixel is resolved.
-    pub fn has(&self, pixel: usize) -> bool {
-        self.pixels.get(pixel).is_some_and(|p| p[3] == 0.0)
-    }
-
+impl Resolution {
     /// Resolves the pixels if that pays: decided by one pilot run, whose result is weighed again after each pass.
     pub fn resolve(
         &mut self,
-        backend: &mut dyn Backend,
-        pixels: Rect,
+        pixels: &mut dyn Pixels,
+        whole: Rect,
         outlook: &Outlook,
-        estimate: &Estimate,
-        allocation: &Allocation,
         progress: &dyn Progress,
     ) -> Result<bool> {
-        if !self.pixels.is_empty() || backend.prefilters() || !outlook.is_worth_a_pilot() {
+        if self.is_done || pixels.backend().prefilters() || !outlook.is_worth_a_pilot() {
             return Ok(false);
         }
         if self.pilot.is_none() {
-            self.pilot = Some(backend.pilot(progress)?);
+            self.pilot = Some(pixels.backend().pilot(progress)?);
         }
         let Some(Some(pilot)) = &self.pilot else { return Ok(false) };
-        let cost = share(pilot, allocation.weights());
-        let error = share(pilot, &estimate.variances);
+        let [cost, error] = pixels.shares(pilot, outlook.exponent)?;
         if !outlook.gains(MARGIN * pilot.seconds, cost, error) {
             return Ok(false);
         }
-        self.pixels = backend.resolve(pixels, progress)?;
+        let resolved = pixels.backend().resolve(whole, progress)?;
+        pixels.resolve(resolved)?;
+        self.is_done = true;
         Ok(true)
-    }
-
-    /// Replaces the sums of resolved pixels by their resolved values.
-    pub fn replace(&self, sums: &mut HalfSums, counts: &[u32]) {
-        for (i, &[r, g, b, sampled]) in self.pixels.iter().enumerate() {
-            if sampled == 0.0 {
-                let n = counts[i] as f32;
-                let square = (r * r + g * g + b * b) / 3.0;
-                sums.halves.iter_mut().for_each(|half| half[i] = [n * r, n * g, n * b, n * square]);
-            }
-        }
-    }
-
-    /// Sets the variances of resolved pixels to zero: their values are not random.
-    pub fn clear_variances(&self, estimate: &mut Estimate) {
-        for (variance, pixel) in estimate.variances.iter_mut().zip(&self.pixels) {
-            *variance *= pixel[3];
-        }
-    }
-}
-
-/// Returns the resolved pixels' share of the sum over a pilot run's pixels.
-fn share(pilot: &PilotRun, of: &[f32]) -> f64 {
-    let sum = |resolved: bool| {
-        let pixels = pilot.pixels.iter().filter(|p| p.1 || !resolved);
-        pixels.map(|p| f64::from(of[p.0 as usize])).sum::<f64>()
-    };
-    let all = sum(false);
-    if all > 0.0 { sum(true) / all } else { 0.0 }
-}
-
-/// Returns the total number of samples until an error is reached; 0 for other goals.
-pub fn needed(allocation: &Allocation, aim: Aim) -> f64 {
-    match aim {
-        Aim::Mse(_) => allocation.cost(aim),
-        Aim::Samples(_) => 0.0,
     }
 }
 
@@ -182,29 +133,5 @@ mod tests {
         assert!(!outlook(Goal::Samples(16), 0.0).is_worth_a_pilot());
         let first = Outlook { passes: 1, ..outlook(Goal::Error(2e-4), 10.0) };
         assert!(!first.is_worth_a_pilot(), "one pass predicts nothing");
-    }
-
-    #[test]
-    fn resolved_pixels_have_their_value_and_no_variance() {
-        let pixels = vec![[0.25, 0.5, 1.0, 0.0], [9.0, 9.0, 9.0, 1.0]];
-        let analytic = AnalyticPixels { pixels, pilot: None };
-        let half = || vec![[1.0, 2.0, 3.0, 4.0]; 2];
-        let mut sums = HalfSums { width: 2, height: 1, halves: [half(), half()] };
-        analytic.replace(&mut sums, &[4, 8]);
-        for half in &sums.halves {
-            assert_eq!(half[0][..3], [1.0, 2.0, 4.0]);
-            assert_eq!(half[1], [1.0, 2.0, 3.0, 4.0], "a sampled pixel has changed");
-        }
-        let mut estimate =
-            Estimate { variances: vec![0.5, 0.5], spreads: Vec::new(), mse: 0.0, deviation: 0.0 };
-        analytic.clear_variances(&mut estimate);
-        assert_eq!((estimate.variances, analytic.resolved()), (vec![0.0, 0.5], 1));
-    }
-
-    #[test]
-    fn shares_are_weighed() {
-        let pilot = PilotRun { seconds: 1.0, pixels: vec![(0, true), (2, false)] };
-        assert_eq!(share(&pilot, &[3.0, 100.0, 1.0]), 0.75);
-        assert_eq!(share(&pilot, &[0.0; 3]), 0.0);
     }
 }

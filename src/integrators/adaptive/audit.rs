@@ -9,13 +9,12 @@ use std::cmp::Reverse;
 
 use rayon::prelude::*;
 
-use super::analytic::{AnalyticPixels, OWN_ERROR};
-use super::draws::{Masses, wanted};
-use super::estimate::Estimate;
+use super::analytic::OWN_ERROR;
+use super::draws::wanted;
 use super::{MAX_COUNT, OCTAVES, octave};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
-use crate::sampling::{Backend, HalfSums};
+use crate::sampling::{AuditPlan, Audited, Backend, Drawn, Pixels, Raises};
 use crate::schema::layout::{BATCH_APART, BATCH_BARE, BATCH_STREAM_SHIFT, PixelBatch};
 
 /// The probability that the interval contains the true value.
@@ -33,14 +32,6 @@ const AREA_ERROR: f64 = 1e-6;
 /// Radius, in pixels, of the neighbourhood that is assumed to be like an audited pixel.
 const RADIUS: usize = 4;
 
-/// The data that an audit examines.
-pub struct Audited<'a> {
-    pub sums: &'a HalfSums,
-    pub counts: &'a [u32],
-    pub estimate: &'a Estimate,
-    pub analytic: &'a AnalyticPixels,
-}
-
 /// The result of an audit.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
@@ -55,7 +46,9 @@ pub struct Audit {
 
 #[derive(Clone, Copy, Debug)]
 struct Finding {
-    pixel: usize,
+    pixel: u32,
+    /// Samples of a half.
+    count: u32,
     /// The variance of one sample.
     spread: f32,
     /// The number of the picture's pixels that a draw of this one represents, and their squared errors and upper
@@ -67,132 +60,141 @@ struct Finding {
     unseen: bool,
 }
 
-impl Audited<'_> {
-    /// Takes at most about `budget` samples; `round` numbers the audits of a picture, whose samples are all
-    /// independent.
-    pub fn audit(
-        &self,
-        backend: &mut dyn Backend,
-        budget: f64,
-        round: u32,
-        progress: &dyn Progress,
-    ) -> Result<Audit> {
-        let mut rng = fastrand::Rng::with_seed(u64::from(round));
-        let masses = Masses::new(self, budget);
-        let drawn = masses.draw(self, &mut rng);
-        let mut places = drawn.clone();
-        places.sort_unstable();
-        places.dedup();
-        let cost: f64 = places.iter().map(|&p| 2.0 * f64::from(wanted(self.counts[p]))).sum();
-        let part = (budget / cost).min(1.0);
-        let samples =
-            |pixel: usize| ((f64::from(wanted(self.counts[pixel])) * part) as u32).clamp(16, MAX_COUNT);
-        let bare = if backend.prefilters() { BATCH_BARE } else { 0 };
-        let batch = |&pixel: &usize, mean: u32| PixelBatch {
-            place: PixelBatch::place_of(pixel as u32, self.sums.width),
-            part: BATCH_APART | bare | (2 + 2 * round + mean) << BATCH_STREAM_SHIFT,
-            first: 0,
-            count: samples(pixel),
-        };
-        // Longest first, so that neighbouring threads have equal amounts of work.
-        let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by_key(|&at| Reverse(samples(places[at])));
-        let batches: Vec<PixelBatch> =
-            order.iter().flat_map(|&at| [batch(&places[at], 0), batch(&places[at], 1)]).collect();
-        let sums = backend.sample_apart(&batches, progress)?;
-        let brightest = sums.iter().map(brightness).fold(0.0, f64::max);
-        let mut findings: Vec<Option<Finding>> = vec![None; places.len()];
-        for ((sums, batches), at) in sums.chunks_exact(2).zip(batches.chunks_exact(2)).zip(order) {
-            let weight = 1.0 / masses.draws_of(self, places[at]);
-            findings[at] = self.finding(places[at], [sums[0], sums[1]], batches[0].count, weight, brightest);
-        }
-        // In the order of the draws, so that neighbouring ones are alike.
-        let of_draws = |of: fn(&Finding) -> f64| {
-            let value = |pixel: &usize| {
-                let found = places.binary_search(pixel).ok().and_then(|at| findings[at].as_ref());
-                found.map_or(0.0, of) / self.counts.len() as f64
-            };
-            Total::new(&drawn.iter().map(value).collect::<Vec<f64>>())
-        };
-        let (errors, bounds) = (of_draws(|f| f.error), of_draws(|f| f.bound));
-        Ok(Audit {
-            mse: errors.sum,
-            interval: (drawn.len() >= MIN_DRAWS)
-                .then(|| [(errors.sum - errors.reach()).max(0.0), bounds.sum + bounds.reach()]),
-            pixels: places.len(),
-            samples: batches.iter().map(|j| f64::from(j.count)).sum(),
-            findings: findings.into_iter().flatten().collect(),
-        })
-    }
+/// Audits a picture of that size with at most about `budget` samples; `round` numbers its audits, whose samples are all
+/// independent.
+pub fn audit(
+    pixels: &mut dyn Pixels,
+    [width, height]: [u32; 2],
+    budget: f64,
+    round: u32,
+    progress: &dyn Progress,
+) -> Result<Audit> {
+    let bare = if pixels.backend().prefilters() { BATCH_BARE } else { 0 };
+    let plan = AuditPlan {
+        budget,
+        start: fastrand::Rng::with_seed(u64::from(round)).f64(),
+        part: BATCH_APART | bare | (2 + 2 * round) << BATCH_STREAM_SHIFT,
+    };
+    let audited = pixels.audit(&plan, progress)?;
+    let brightest = audited.iter().flat_map(|a| &a.sums).map(brightness).fold(0.0, f64::max);
+    let findings: Vec<Option<Finding>> = audited.iter().map(|a| finding(a, brightest)).collect();
+    // In the order of the draws, so that neighbouring ones are alike.
+    let all = f64::from(width) * f64::from(height);
+    let of_draws = |of: fn(&Finding) -> f64| {
+        let value = |found: &Option<Finding>| found.as_ref().map_or(0.0, of) / all;
+        Total::new(&findings.iter().map(value).collect::<Vec<f64>>())
+    };
+    let (errors, bounds) = (of_draws(|f| f.error), of_draws(|f| f.bound));
+    Ok(Audit {
+        mse: errors.sum,
+        interval: (audited.len() >= MIN_DRAWS)
+            .then(|| [(errors.sum - errors.reach()).max(0.0), bounds.sum + bounds.reach()]),
+        pixels: audited.len(),
+        samples: audited.iter().map(|a| 2.0 * f64::from(a.samples)).sum(),
+        findings: findings.into_iter().flatten().collect(),
+    })
+}
 
-    /// Returns the squared error of a pixel and its bounds; `None` if film or audit are NaN or infinite. Nothing in the
-    /// picture is assumed to be brighter than `brightest`.
-    fn finding(
-        &self,
-        pixel: usize,
-        sums: [[f32; 4]; 2],
-        samples: u32,
-        weight: f64,
-        brightest: f64,
-    ) -> Option<Finding> {
-        let n = 2.0 * f64::from(self.counts[pixel]);
-        let k = f64::from(samples);
-        let both =
-            |c: usize| f64::from(self.sums.halves[0][pixel][c]) + f64::from(self.sums.halves[1][pixel][c]);
-        let film: [f64; 4] = std::array::from_fn(|c| both(c) / n);
-        let means = sums.map(|sum| sum.map(|s| f64::from(s) / k));
-        let middle: [f64; 4] = std::array::from_fn(|c| 0.5 * (means[0][c] + means[1][c]));
-        let dot = |u: [f64; 3], v: [f64; 3]| (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) / 3.0;
-        let rgb = |v: [f64; 4]| [v[0], v[1], v[2]];
-        let off = |m: [f64; 4]| std::array::from_fn(|c| film[c] - m[c]);
-        let spread = (middle[3] - dot(rgb(middle), rgb(middle))).max(0.0);
-        let (error, bound, unseen) = if self.analytic.has(pixel) {
-            // Samples cannot measure the error of a resolved pixel, but they can contradict its value: by more than
-            // four times their noise, and by more than if they had missed the brightest light where it was due `MISSED`
-            // times.
-            let squared = dot(off(middle), off(middle));
-            let noise = (16.0 * spread).max(MISSED * brightest * squared.sqrt()) / (2.0 * k);
-            let excess = (squared - noise).max(0.0);
-            (excess, excess + OWN_ERROR.powi(2) + (AREA_ERROR * brightest).powi(2), false)
-        } else {
-            let error = dot(off(means[0]), off(means[1]));
-            let seen = (film[3] - dot(rgb(film), rgb(film))).max(0.0);
-            let unseen = spread > f64::from(UNSEEN) * seen;
-            // If the audit itself saw too little to know the mean, its samples still know their variance.
-            (error, if unseen { error.max(spread / n) } else { error }, unseen)
-        };
-        let (error, bound) = (error * weight, bound * weight);
-        let finding = Finding { pixel, spread: spread as f32, weight, error, bound, unseen };
-        (error.is_finite() && bound.is_finite() && spread.is_finite()).then_some(finding)
+/// Samples drawn pixels anew, in a picture of that width.
+pub fn sample_drawn(
+    backend: &mut dyn Backend,
+    width: u32,
+    drawn: &[Drawn],
+    plan: &AuditPlan,
+    progress: &dyn Progress,
+) -> Result<Vec<Audited>> {
+    let cost: f64 = drawn.iter().map(|d| 2.0 * f64::from(wanted(d.count))).sum();
+    let share = (plan.budget / cost).min(1.0);
+    let samples = |d: &Drawn| ((f64::from(wanted(d.count)) * share) as u32).clamp(16, MAX_COUNT);
+    let batch = |d: &Drawn, mean: u32| PixelBatch {
+        place: PixelBatch::place_of(d.pixel, width),
+        part: plan.part + (mean << BATCH_STREAM_SHIFT),
+        first: 0,
+        count: samples(d),
+    };
+    // Longest first, so that neighbouring threads have equal amounts of work; then as the picture is.
+    let mut order: Vec<usize> = (0..drawn.len()).collect();
+    order.sort_by_key(|&at| (Reverse(samples(&drawn[at])), drawn[at].pixel));
+    let batches: Vec<PixelBatch> =
+        order.iter().flat_map(|&at| [batch(&drawn[at], 0), batch(&drawn[at], 1)]).collect();
+    let taken = backend.sample_apart(&batches, progress)?;
+    let audited = |drawn: &Drawn| Audited { drawn: *drawn, samples: samples(drawn), sums: [[0.0; 4]; 2] };
+    let mut audited: Vec<Audited> = drawn.iter().map(audited).collect();
+    for (sums, at) in taken.chunks_exact(2).zip(order) {
+        audited[at].sums = [sums[0], sums[1]];
     }
+    Ok(audited)
+}
+
+/// Returns the squared error of a pixel and its bounds; `None` if film or audit are NaN or infinite. Nothing in the
+/// picture is assumed to be brighter than `brightest`.
+fn finding(audited: &Audited, brightest: f64) -> Option<Finding> {
+    let Audited { drawn, samples, sums } = *audited;
+    let n = 2.0 * f64::from(drawn.count);
+    let k = f64::from(samples);
+    let both = |c: usize| f64::from(drawn.halves[0][c]) + f64::from(drawn.halves[1][c]);
+    let film: [f64; 4] = std::array::from_fn(|c| both(c) / n);
+    let means = sums.map(|sum| sum.map(|s| f64::from(s) / k));
+    let middle: [f64; 4] = std::array::from_fn(|c| 0.5 * (means[0][c] + means[1][c]));
+    let dot = |u: [f64; 3], v: [f64; 3]| (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) / 3.0;
+    let rgb = |v: [f64; 4]| [v[0], v[1], v[2]];
+    let off = |m: [f64; 4]| std::array::from_fn(|c| film[c] - m[c]);
+    let spread = (middle[3] - dot(rgb(middle), rgb(middle))).max(0.0);
+    let (error, bound, unseen) = if drawn.resolved {
+        // Samples cannot measure the error of a resolved pixel, but they can contradict its value: by more than
+        // four times their noise, and by more than if they had missed the brightest light where it was due `MISSED`
+        // times.
+        let squared = dot(off(middle), off(middle));
+        let noise = (16.0 * spread).max(MISSED * brightest * squared.sqrt()) / (2.0 * k);
+        let excess = (squared - noise).max(0.0);
+        (excess, excess + OWN_ERROR.powi(2) + (AREA_ERROR * brightest).powi(2), false)
+    } else {
+        let error = dot(off(means[0]), off(means[1]));
+        let seen = (film[3] - dot(rgb(film), rgb(film))).max(0.0);
+        let unseen = spread > f64::from(UNSEEN) * seen;
+        // If the audit itself saw too little to know the mean, its samples still know their variance.
+        (error, if unseen { error.max(spread / n) } else { error }, unseen)
+    };
+    let weight = 1.0 / drawn.draws;
+    let (error, bound) = (error * weight, bound * weight);
+    let Drawn { pixel, count, .. } = drawn;
+    let finding = Finding { pixel, count, spread: spread as f32, weight, error, bound, unseen };
+    (error.is_finite() && bound.is_finite() && spread.is_finite()).then_some(finding)
 }
 
 impl Audit {
-    /// Raises the variances of pixels like those in which the audit saw light that the film has not seen: around them,
-    /// and of the same counts. Returns the pixels around them.
-    pub fn raise(&self, variances: &mut [f32], counts: &[u32], width: usize) -> Vec<u32> {
+    /// Returns the variances of pixels like those in which the audit saw light that the film has not seen: around them,
+    /// and of the same counts.
+    pub fn raises(&self) -> Raises {
         let all: f64 = self.findings.iter().map(|f| f.bound.max(0.0)).sum();
         let unseen = || self.findings.iter().filter(|f| f.unseen);
-        let mut raised = Vec::new();
-        for found in unseen().filter(|f| f.bound * self.findings.len() as f64 > all) {
-            raise(variances, counts, width, found.pixel, found.spread, RADIUS, &mut raised);
-        }
-        if unseen().map(|f| f.bound).sum::<f64>() > 0.1 * all {
+        let matters = |f: &&Finding| f.bound * self.findings.len() as f64 > all;
+        let around = unseen().filter(matters).map(|f| (f.pixel, f.spread)).collect();
+        let floors = (unseen().map(|f| f.bound).sum::<f64>() > 0.1 * all).then(|| {
             let mut floors = [[0.0f64; 2]; OCTAVES];
             for found in &self.findings {
-                let [sum, weight] = &mut floors[octave(counts[found.pixel])];
+                let [sum, weight] = &mut floors[octave(found.count)];
                 *sum += found.weight * if found.unseen { f64::from(found.spread) } else { 0.0 };
                 *weight += found.weight;
             }
-            variances.par_iter_mut().zip(counts).for_each(|(variance, &count)| {
-                let [sum, weight] = floors[octave(count)];
-                if weight > 0.0 {
-                    *variance = variance.max((sum / weight) as f32 / (2.0 * count as f32));
-                }
-            });
-        }
-        raised
+            floors.map(|[sum, weight]| if weight > 0.0 { (sum / weight) as f32 } else { 0.0 }).to_vec()
+        });
+        Raises { around, floors }
     }
+}
+
+/// Raises variances to what an audit found. Returns the pixels around those that it looked at.
+pub fn raise_all(raises: &Raises, variances: &mut [f32], counts: &[u32], width: usize) -> Vec<u32> {
+    let mut raised = Vec::new();
+    for &(pixel, spread) in &raises.around {
+        raise(variances, counts, width, pixel as usize, spread, RADIUS, &mut raised);
+    }
+    if let Some(floors) = &raises.floors {
+        variances.par_iter_mut().zip(counts).for_each(|(variance, &count)| {
+            *variance = variance.max(floors[octave(count)] / (2.0 * count as f32));
+        });
+    }
+    raised
 }
 
 /// Assumes that the pixels around one vary like it, by a quarter.

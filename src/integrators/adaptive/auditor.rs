@@ -1,11 +1,11 @@
 //! Decides the size of the next audit and the effect of the previous ones on the aim. Input: the samples so far, and
 //! the budget that the goal leaves. Output: audits, numbered so that no two share samples.
 
-use super::audit::{Audit, Audited};
+use super::audit::{Audit, audit};
 use super::{Goal, Outcome};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
-use crate::sampling::Backend;
+use crate::sampling::Pixels;
 
 /// Ratio of an audit's samples to those of the picture; pictures with few samples have larger audits, up to this many
 /// in all. In scenes known to contain something small and bright an audit must be large enough to hit it too.
@@ -54,13 +54,13 @@ impl Auditor {
 
     pub fn audit(
         &mut self,
-        audited: &Audited,
-        backend: &mut dyn Backend,
+        pixels: &mut dyn Pixels,
+        size: [u32; 2],
         budget: f64,
         outcome: &mut Outcome,
         progress: &dyn Progress,
     ) -> Result<Audit> {
-        let audit = audited.audit(backend, budget, self.rounds, progress)?;
+        let audit = audit(pixels, size, budget, self.rounds, progress)?;
         self.rounds += 1;
         self.mse = audit.mse;
         outcome.audited_pixels += audit.pixels as u64;

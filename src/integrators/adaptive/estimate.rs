@@ -18,6 +18,7 @@ const PIXELS_PER_TASK: usize = 1 << 15;
 /// Pixels on each side of the window's centre.
 const RADIUS: usize = 3;
 
+#[derive(Default)]
 pub struct Estimate {
     /// The variance of the mean over both halves, averaged over the channels.
     pub variances: Vec<f32>,
@@ -63,15 +64,14 @@ impl Estimate {
 }
 
 impl Estimate {
-    /// Returns the ratio of the mean variance to the error that the halves show.
-    pub fn weight(&self) -> f64 {
+    /// Returns the mean of all variances.
+    pub fn mean_variance(&self) -> f64 {
         let chunks: Vec<f64> = self
             .variances
             .par_chunks(PIXELS_PER_TASK)
             .map(|chunk| chunk.iter().map(|&v| f64::from(v)).sum())
             .collect();
-        let mean = chunks.iter().sum::<f64>() / self.variances.len() as f64;
-        if self.mse > 0.0 { mean / self.mse } else { 1.0 }
+        chunks.iter().sum::<f64>() / self.variances.len() as f64
     }
 }
 

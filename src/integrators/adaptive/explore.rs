@@ -7,7 +7,7 @@ use super::audit::raise;
 use super::estimate::Estimate;
 
 /// Length of a run of pixels of which one is visited.
-const RUN: usize = 128;
+pub const RUN: usize = 128;
 /// Factor by which the count of a visited pixel grows if it has fewer than `FEW` samples in each half; a larger count
 /// grows by half of its leading power of two.
 const GROWTH: u32 = 4;
@@ -17,16 +17,12 @@ const FOUND: f32 = 4.0;
 /// Radius, in pixels, of the neighbourhood that is assumed to be like it.
 const RADIUS: usize = 3;
 
+#[derive(Default)]
 pub struct Explorer {
-    rng: fastrand::Rng,
+    /// The number of rounds of visits so far.
+    rounds: u32,
     /// Visited pixels, and the variance of their samples before.
     visited: Vec<(u32, f32)>,
-}
-
-impl Default for Explorer {
-    fn default() -> Explorer {
-        Explorer { rng: fastrand::Rng::with_seed(0), visited: Vec::new() }
-    }
 }
 
 impl Explorer {
@@ -39,22 +35,34 @@ impl Explorer {
                 raise(&mut estimate.variances, counts, width, pixel as usize, now, RADIUS, &mut raised);
             }
         }
-        self.look_at(&raised, estimate);
+        self.look_at(&raised, &estimate.spreads);
     }
 
     /// Visits pixels that were given a variance that their samples do not show.
-    pub fn look_at(&mut self, pixels: &[u32], estimate: &Estimate) {
-        self.visited.extend(pixels.iter().map(|&i| (i, estimate.spreads[i as usize])));
+    pub fn look_at(&mut self, pixels: &[u32], spreads: &[f32]) {
+        self.visited.extend(pixels.iter().map(|&i| (i, spreads[i as usize])));
     }
 
     /// Gives some samples to one pixel of each run, drawn at random.
-    pub fn visit(&mut self, next: &mut [u32], now: &[u32], estimate: &Estimate) {
-        for first in (0..next.len()).step_by(RUN) {
-            let pixel = self.rng.usize(first..(first + RUN).min(next.len()));
+    pub fn visit(&mut self, next: &mut [u32], now: &[u32], spreads: &[f32]) {
+        for (run, first) in (0..next.len()).step_by(RUN).enumerate() {
+            let length = RUN.min(next.len() - first);
+            let pixel = first + drawn_of(run as u32, self.rounds, length as u32) as usize;
             next[pixel] = next[pixel].max(grown(now[pixel]).min(MAX_COUNT));
-            self.visited.push((pixel as u32, estimate.spreads[pixel]));
+            self.visited.push((pixel as u32, spreads[pixel]));
         }
+        self.rounds += 1;
     }
+}
+
+/// Returns a number below `length`, at random by run and round: two rounds of pcg (Jarzynski & Olano 2020).
+fn drawn_of(run: u32, round: u32, length: u32) -> u32 {
+    let pcg = |v: u32| {
+        let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+        (word >> 22) ^ word
+    };
+    pcg(pcg(run).wrapping_add(round)) % length
 }
 
 fn grown(now: u32) -> u32 {
@@ -76,7 +84,7 @@ mod tests {
         let mut explorer = Explorer::default();
         for _ in 0..2000 {
             let mut next = now.clone();
-            explorer.visit(&mut next, &now, &estimate);
+            explorer.visit(&mut next, &now, &estimate.spreads);
             for (run, counts) in next.chunks(RUN).enumerate() {
                 assert_eq!(counts.iter().filter(|n| **n == 32).count(), 1, "run {run}");
             }
@@ -100,7 +108,7 @@ mod tests {
         let mut explorer = Explorer::default();
         let mut estimate = flat(WIDTH * 8);
         let found = 4 * WIDTH + 20;
-        explorer.look_at(&[found as u32], &estimate);
+        explorer.look_at(&[found as u32], &estimate.spreads);
         estimate.spreads[found] = 1.0;
         explorer.spread(&mut estimate, &counts, WIDTH);
         let raised = |estimate: &Estimate| estimate.variances.iter().filter(|v| **v > 0.0).count();

@@ -10,17 +10,23 @@ mod auditor;
 mod draws;
 mod estimate;
 mod explore;
+mod host_pixels;
 mod pace;
+mod resolved;
 mod run;
 mod unseen;
 
 use serde::Serialize;
 
-pub use audit::CONFIDENCE;
+use crate::schema::constants::{COUNT_OCTAVES, MAX_HALF_SAMPLES};
+
+pub use audit::{CONFIDENCE, sample_drawn};
+pub use draws::{DrawRates, DrawSums, first_draw};
+pub use resolved::shares;
 pub use run::{Run, run};
 
 /// Most samples of a half: f32 sums of this many are still accurate enough.
-const MAX_COUNT: u32 = 1 << 16;
+const MAX_COUNT: u32 = MAX_HALF_SAMPLES;
 
 /// The condition that ends the sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +40,7 @@ pub enum Goal {
 }
 
 /// Counts are classified by their octave.
-const OCTAVES: usize = 18;
+const OCTAVES: usize = COUNT_OCTAVES as usize;
 
 fn octave(count: u32) -> usize {
     (count.max(1).ilog2() as usize).min(OCTAVES - 1)

@@ -91,6 +91,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::OpaqueUniforms
         | C::MipChannels
         | C::MipComponentBytes
+        | C::GoalStepKind
         | C::MipSrgb => return None,
     })
 }

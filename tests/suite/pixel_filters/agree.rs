@@ -120,8 +120,15 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
             let scene = packed(adaptively(filter, footprint), None);
             let (width, height) = (scene.header.film_size.x, scene.header.film_size.y);
             let mut backend = OracleBackend::new(&scene).unwrap();
-            let oracle =
-                adaptive::run(&mut backend, [width, height], Goal::Samples(2), &NoProgress).unwrap().film;
+            let oracle = adaptive::run(
+                &mut backend,
+                Film::new(width, height, 0),
+                Goal::Samples(2),
+                false,
+                &NoProgress,
+            )
+            .unwrap()
+            .film;
             let rendered = render::render_to_goal(
                 &device(),
                 scene,
