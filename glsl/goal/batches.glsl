@@ -49,7 +49,10 @@ void list_batches() {
     }
 }
 
-uint parts_of_half(uint more) { return (more + GOAL_PART_SAMPLES - 1u) / GOAL_PART_SAMPLES; }
+uint parts_of_half(uint samples) { return (samples + goal.part_samples - 1u) / goal.part_samples; }
+
+// Returns the samples of a long batch that are taken now.
+uint samples_now(uint more) { return min(more, OPAQUE(goal.until)) - min(more, goal.from); }
 
 // Lists the parts of long batches, those of a pixel one after the other, and keeps the place of its first one.
 void list_parts() {
@@ -58,14 +61,16 @@ void list_parts() {
     uint count = word_of(GOAL_COUNTS, pixel);
     uint more = word_of(GOAL_NEXT, pixel) - count;
     if (!is_long(more)) return;
-    uint number = parts_of_half(more);
+    uint samples = samples_now(more);
+    uint number = parts_of_half(samples);
     uint first = atomicAdd(totals[GOAL_PART_COUNT], 2u * number);
     pixel_words[at(GOAL_ROWS, pixel)] = first;
     for (uint k = 0u; k < 2u * number; k++) {
         uint side = k / number;
-        uint before = k % number * GOAL_PART_SAMPLES;
+        uint before = k % number * goal.part_samples;
         uint part = side | side << BATCH_STREAM_SHIFT | BATCH_APART;
-        parts[first + k] = PixelBatch(place_of(pixel), part, count + before, min(GOAL_PART_SAMPLES, more - before));
+        uint length = min(goal.part_samples, samples - before);
+        parts[first + k] = PixelBatch(place_of(pixel), part, count + goal.from + before, length);
     }
 }
 
@@ -77,17 +82,20 @@ void end_parts() {
     }
 }
 
+// Adds the sums of parts to the film, and makes room for further ones.
 void add_parts() {
     uint pixel = number_of_thread();
+    if (pixel == 0u) totals[GOAL_PART_COUNT] = 0u;
     if (pixel >= pixel_count()) return;
     uint count = word_of(GOAL_COUNTS, pixel);
     uint more = word_of(GOAL_NEXT, pixel) - count;
     if (!is_long(more)) return;
-    uint number = parts_of_half(more);
+    uint number = parts_of_half(samples_now(more));
     uint first = word_of(GOAL_ROWS, pixel);
+    bool adds = count + goal.from > 0u;
     for (uint side = 0u; side < 2u; side++) {
         uint entry = side * pixel_count() + pixel;
-        vec4 sum = count > 0u ? film[entry] : vec4(0.0);
+        vec4 sum = adds ? film[entry] : vec4(0.0);
         for (uint k = 0u; k < number; k++) sum += part_sums[first + side * number + k];
         film[entry] = sum;
     }

@@ -151,9 +151,9 @@ void draw_parts() {
     totals[at + 12u] = samples;
     totals[at + 13u] = first;
     for (uint k = 0u; k < 2u * number; k++) {
-        uint before = k % number * GOAL_PART_SAMPLES;
+        uint before = k % number * goal.part_samples;
         uint part = goal.batch_part + (k / number << BATCH_STREAM_SHIFT);
-        parts[first + k] = PixelBatch(place_of(totals[at]), part, before, min(GOAL_PART_SAMPLES, samples - before));
+        parts[first + k] = PixelBatch(place_of(totals[at]), part, before, min(goal.part_samples, samples - before));
     }
 }
 

@@ -3,7 +3,7 @@
 #ifndef GOAL_SUMS_GLSL
 #define GOAL_SUMS_GLSL
 
-#include "state.glsl"
+#include "statistics.glsl"
 
 void sum_partials() {
     uint column = number_of_group();
@@ -26,13 +26,29 @@ void sum_partials() {
     if (lane == 0u) totals[column] = is_real ? floatBitsToUint(sum.x) : counters[0];
 }
 
+// Returns (a + b) / n, rounded as if it were exact before (Knuth's sum and its remainder).
+float mean_of(float a, float b, float n) {
+    float sum = a + b;
+    float from_b = sum - a;
+    float lost = (a - (sum - from_b)) + (b - from_b);
+    float mean = sum / n;
+    return mean + (fma(-mean, n, sum) + lost) / n;
+}
+
 // Red, green and blue of each pixel, in the place of what later steps do not need.
 void find_means() {
     uint pixel = number_of_thread();
     if (pixel >= pixel_count()) return;
-    vec3 mean = (film[pixel].xyz + film[pixel_count() + pixel].xyz) / float(2u * word_of(GOAL_COUNTS, pixel));
+    vec3 a = film[pixel].xyz;
+    vec3 b = film[pixel_count() + pixel].xyz;
+    float n = float(2u * word_of(GOAL_COUNTS, pixel));
     uint first = GOAL_PAIRS * pixel_count() + 3u * pixel;
-    for (uint c = 0u; c < 3u; c++) pixel_words[first + c] = floatBitsToUint(mean[c]);
+    for (uint c = 0u; c < 3u; c++) {
+        float mean = mean_of(a[c], b[c], n);
+        // What is infinite has no remainder.
+        if (no_number(mean)) mean = (a[c] + b[c]) / n;
+        pixel_words[first + c] = floatBitsToUint(mean);
+    }
 }
 
 #endif

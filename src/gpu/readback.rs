@@ -18,7 +18,7 @@ const HALF_BYTES: usize = 4 << 20;
 /// Less is copied at once.
 const SMALLEST_CHUNK: usize = 256 << 10;
 /// Bytes that a thread copies at once.
-const AT_ONCE: usize = 1 << 20;
+const AT_ONCE: usize = 256 << 10;
 
 /// Reads the bytes from `offset` on.
 pub(super) fn from_buffer(

@@ -8,7 +8,7 @@ use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
-use super::goal::DevicePixels;
+use super::goal::{DevicePixels, GoalBackend};
 use super::plan::integrator;
 use super::session::{Prepared, Turn, Work};
 use super::tiles::TileRenderer;
@@ -16,7 +16,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
-use crate::gpu::{Gpu, RunTime};
+use crate::gpu::Gpu;
 use crate::integrators::adaptive::Goal;
 use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun, Pixels};
 use crate::schema::layout::PixelBatch;
@@ -44,7 +44,7 @@ impl Prepared<'_, '_> {
 
 /// A prepared session while it renders.
 pub struct DeviceBackend<'p> {
-    pub(super) prepared: &'p Prepared<'p, 'p>,
+    prepared: &'p Prepared<'p, 'p>,
     /// Set by the first request for batches.
     batches: Option<BatchSampler<'p>>,
     /// Set by a pilot run, for a scene that is sampled by batches.
@@ -110,7 +110,7 @@ impl<'p> DeviceBackend<'p> {
     }
 
     /// Returns the sampler of batches, built on first use, and the report.
-    pub(super) fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
+    fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
         let Prepared { session, scene, work, .. } = self.prepared;
         if self.batches.is_none() {
             self.batches = Some(match work {
@@ -170,16 +170,6 @@ impl<'p> DeviceBackend<'p> {
         }
     }
 
-    /// Records a submission with this number of samples.
-    pub(super) fn learn(&mut self, samples: f64, time: RunTime) -> Result<()> {
-        let (sampler, report) = self.batches()?;
-        report.add_slice(time);
-        if samples > 0.0 {
-            sampler.passes.learn(samples, time);
-        }
-        Ok(())
-    }
-
     /// Fails unless the pixels are whole rows of the picture and the samples those for which the scene was packed.
     fn check(&self, pixels: &Rect, samples_end: u32) -> Result<()> {
         let [width, height] = self.prepared.scene.header.film_size.to_array();
@@ -192,6 +182,20 @@ impl<'p> DeviceBackend<'p> {
              up to sample {samples_end}",
             self.prepared.scene.samples
         )))
+    }
+}
+
+impl<'p> GoalBackend<'p> for DeviceBackend<'p> {
+    fn gpu(&self) -> &'p Gpu {
+        self.prepared.session.gpu
+    }
+
+    fn sampler(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
+        self.batches()
+    }
+
+    fn first_samples_differ(&self) -> bool {
+        self.prepared.session.tile_culling().is_some()
     }
 }
 

@@ -25,6 +25,8 @@ pub struct BatchPasses<'a> {
     corner: [u32; 2],
     /// Samples of the next submission, learnt from the previous ones.
     next: f64,
+    /// Room for a list of batches, kept for the next one.
+    list: Option<Buffer>,
 }
 
 impl<'a> BatchPasses<'a> {
@@ -36,7 +38,7 @@ impl<'a> BatchPasses<'a> {
         corner: [u32; 2],
     ) -> BatchPasses<'a> {
         let next = if gpu.info().kind == DeviceKind::Cpu { FIRST_SAMPLES } else { FIRST_SAMPLES_GPU };
-        BatchPasses { gpu, resources, pipeline, width, corner, next }
+        BatchPasses { gpu, resources, pipeline, width, corner, next, list: None }
     }
 
     /// Returns the index of the last pass.
@@ -145,14 +147,24 @@ impl<'a> BatchPasses<'a> {
     ) -> Result<Vec<u32>> {
         let list = match batches {
             Batches::List([]) => return Ok(Vec::new()),
-            Batches::List(list) => {
-                Some(self.gpu.upload_buffer("batches", BufferUse::Storage, bytemuck::cast_slice(list))?)
-            }
+            Batches::List(list) => Some(self.upload(list)?),
             Batches::Equal { .. } => None,
         };
         let group = self.pipeline.bind(self.gpu, self.resources, &film.buffer, list.as_ref())?;
         self.submit(pass, &group, &batches.slice(film.slice), &batches.costs(), report, progress)?;
         self.left()
+    }
+
+    /// Returns a buffer that begins with these batches.
+    fn upload(&mut self, batches: &[PixelBatch]) -> Result<Buffer> {
+        let bytes = size_of_val(batches) as u64;
+        let list = match self.list.take().filter(|list| list.bytes() >= bytes) {
+            Some(list) => list,
+            None => self.gpu.buffer("batches", bytes, BufferUse::Storage)?,
+        };
+        self.gpu.write_buffer(&list, 0, bytemuck::cast_slice(batches))?;
+        self.list = Some(list.clone());
+        Ok(list)
     }
 
     /// Returns the indices of the entries that the last submissions have left.

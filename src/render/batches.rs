@@ -14,9 +14,9 @@ use crate::sampling::HalfSums;
 use crate::schema::layout::{PixelBatch, Slice};
 
 /// Four floats for each half.
-const PIXEL_BYTES: u64 = 32;
+pub const PIXEL_BYTES: u64 = 32;
 /// Bytes of a page of a film that the host reads after each pass.
-pub const MAX_PAGE_BYTES: u64 = 64 << 20;
+const MAX_PAGE_BYTES: u64 = 64 << 20;
 pub(super) struct Page {
     rows: Rect,
     pub(super) film: BatchFilm,
@@ -35,20 +35,27 @@ pub struct BatchSampler<'a> {
 }
 
 impl<'a> BatchSampler<'a> {
+    /// Returns a sampler with sums of no samples, in a buffer of its own or one that is kept for the whole picture.
     pub fn new(
         gpu: &'a Gpu,
         pipeline: &'a SamplePipeline,
         resources: &'a Resources,
         scene: &PackedScene,
-        page_bytes: u64,
+        kept: Option<&Buffer>,
     ) -> Result<BatchSampler<'a>> {
         let limits = &gpu.info().limits;
         let [width, height] = scene.header.film_size.to_array();
         let planes = if scene.mean_sign.is_some() { 3 } else { 1 };
         let row = u64::from(width) * PIXEL_BYTES * planes;
-        let rows = (page_bytes.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
+        let rows = match kept {
+            Some(_) => height,
+            None => {
+                (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32
+            }
+        };
         let page = |rows: Rect| {
-            let buffer = gpu.buffer("film", row * u64::from(rows.height), BufferUse::Storage)?;
+            let new = || gpu.buffer("film", row * u64::from(rows.height), BufferUse::Storage);
+            let buffer = kept.cloned().map_or_else(new, Ok)?;
             Ok(Page { rows, film: film_of(rows, buffer) })
         };
         let pages = Rect::whole([width, height]).strips(rows).map(page).collect::<Result<Vec<_>>>()?;
@@ -191,14 +198,6 @@ impl BatchSampler<'_> {
     /// Returns the dispatch of batches that the device has listed, if there is one.
     pub fn listed_at_once(&self, listed: &Listed) -> Option<AtOnce> {
         self.passes.at_once(listed.slice(self.pages[0].film.slice), &listed.costs())
-    }
-
-    /// Returns the sums of both halves of all pixels, if they are in one buffer.
-    pub fn film(&self) -> Option<&Buffer> {
-        match self.pages.as_slice() {
-            [page] => Some(&page.film.buffer),
-            _ => None,
-        }
     }
 
     /// Reads the sums of all batches so far.

@@ -15,7 +15,7 @@ use crate::scene::model::Scene;
 use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::Header;
 
-use super::batches::{BatchSampler, MAX_PAGE_BYTES};
+use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::goal::GoalSteps;
@@ -297,9 +297,8 @@ impl Prepared<'_, '_> {
 
     /// Returns the sampler of batches for a pipeline of this choice of samples.
     pub(super) fn sampler<'a>(&'a self, pipeline: &'a SamplePipeline) -> Result<BatchSampler<'a>> {
-        // What stays on the device need not be in pages.
-        let page_bytes = if self.goal.is_some() { u64::MAX } else { MAX_PAGE_BYTES };
-        BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene, page_bytes)
+        let kept = self.goal.as_ref().map(|steps| &steps.film);
+        BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene, kept)
     }
 
     /// Runs the pipeline once, so that lazy compilation in the driver happens now.

@@ -1,6 +1,7 @@
 //! Several backends as one: strips of rows are assigned to them round-robin, and their sums are merged. The assignment
 //! depends on the strip's position and the number of backends, never on time: backends of one kind render the picture
-//! that a single one renders, backends of different kinds the same picture every time.
+//! that a single one renders, backends of different kinds the same picture every time. A single one may keep the pixels of a
+//! picture that is sampled to a goal itself, whose samples then differ by rounding of the estimates.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 

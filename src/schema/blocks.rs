@@ -87,6 +87,10 @@ blocks! {
         /// The samples of an audit, and the `part` of its first means' batches.
         budget,
         batch_part,
+        /// Most samples of a part, and which samples of each long batch are taken: from one on, before another.
+        part_samples,
+        from,
+        until,
     }
 
     /// The number of results of a probe.

@@ -4,6 +4,7 @@
 
 mod clocked;
 mod rare;
+mod twins;
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};

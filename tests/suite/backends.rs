@@ -7,7 +7,9 @@ use moire::internal::core::progress::{NoProgress, Progress};
 use moire::internal::core::range::{Range, Rect};
 use moire::internal::gpu::DeviceSelect;
 use moire::internal::lab::metrics::compare;
-use moire::internal::render::{DeviceBackend, On, Options, Picture, Session, Tuning, render_scene};
+use moire::internal::render::{
+    DeviceBackend, EstimateChoice, On, Options, Picture, Session, Tuning, render_scene,
+};
 use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun, Scheduler};
 use moire::internal::scene::cone::adapt_for_cone;
 use moire::internal::scene::model::{Algorithm, Pattern, PixelFilter, PixelFilterKind, Scene};
@@ -20,11 +22,14 @@ fn on_device() -> On {
     On::Device(DeviceSelect::parse(&device_name()).unwrap())
 }
 
-/// Renders as `moire render` does.
+/// Renders as `moire render` does, but for sampling to a goal: of a picture that several devices share the host keeps the
+/// pixels, and so it does here for a single one.
 fn rendered(mut scene: Scene, on: &[On]) -> Picture {
     prune(&mut scene);
     adapt_for_cone(&mut scene);
-    let picture = render_scene(&scene, &Options::default(), on, &NoProgress).unwrap();
+    let tuning = Tuning { estimates: EstimateChoice::Host, ..Tuning::default() };
+    let options = Options { tuning, ..Options::default() };
+    let picture = render_scene(&scene, &options, on, &NoProgress).unwrap();
     assert!(picture.messages.is_empty(), "validation: {:?}", picture.messages);
     picture
 }

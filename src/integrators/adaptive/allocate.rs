@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use crate::sampling::Aim;
 
-/// Pixels sorted into bins by the multiplier at which they begin to gain samples.
+/// Pixels sorted into bins by the multiplier at which they begin to gain samples. Its memory is kept from pass to pass.
+#[derive(Default)]
 pub struct Allocation {
     weights: Vec<f32>,
     bins: Vec<Bin>,
@@ -48,10 +49,11 @@ const BINS: usize = 1024;
 const BINS_AN_OCTAVE: f64 = 8.0;
 
 impl Allocation {
-    pub fn new(variances: &[f32], counts: &[u32], exponent: f64) -> Allocation {
+    /// Weighs all pixels; the error falls as MSE ~ samples^-exponent.
+    pub fn update(&mut self, variances: &[f32], counts: &[u32], exponent: f64) {
         let p = exponent as f32;
-        let mut weights = vec![0.0; counts.len()];
-        let chunks = weights.par_chunks_mut(PIXELS_PER_TASK).zip(variances.par_chunks(PIXELS_PER_TASK));
+        self.weights.resize(counts.len(), 0.0);
+        let chunks = self.weights.par_chunks_mut(PIXELS_PER_TASK).zip(variances.par_chunks(PIXELS_PER_TASK));
         let bins = chunks.zip(counts.par_chunks(PIXELS_PER_TASK)).map(|((weights, variances), counts)| {
             let mut bins = vec![Bin::default(); BINS];
             for ((weight, &variance), &count) in weights.iter_mut().zip(variances).zip(counts) {
@@ -61,8 +63,8 @@ impl Allocation {
             }
             bins
         });
-        let bins = chunked_sum(bins.collect());
-        Allocation { weights, bins, exponent, pixels: counts.len() as f64 }
+        self.bins = chunked_sum(bins.collect());
+        (self.exponent, self.pixels) = (exponent, counts.len() as f64);
     }
 
     /// Returns the total number of samples that meets the aim.
@@ -70,14 +72,14 @@ impl Allocation {
         self.samples(self.multiplier(aim))
     }
 
-    /// Returns the samples in each half after the next pass.
-    pub fn counts(&self, aim: Aim, now: &[u32], growth: f64, most: u32) -> Vec<u32> {
+    /// Replaces `next` by the samples in each half after the next pass.
+    pub fn choose(&self, aim: Aim, now: &[u32], growth: f64, most: u32, next: &mut Vec<u32>) {
         let multiplier = self.multiplier(aim);
         let count = |(&weight, &now): (&f32, &u32)| {
             let wanted = (f64::from(weight) * multiplier).min(f64::from(now) * growth).min(f64::from(most));
             if wanted < min_growth(now.into()) * f64::from(now) { now } else { round_to_two_bits(wanted) }
         };
-        self.weights.par_iter().zip(now).map(count).collect()
+        self.weights.par_iter().zip(now).map(count).collect_into_vec(next);
     }
 
     /// Returns the multiplier by bisection: both aims are monotonic in it.
@@ -143,8 +145,18 @@ fn round_to_two_bits(wanted: f64) -> u32 {
 mod tests {
     use super::*;
 
+    impl Allocation {
+        fn counts(&self, aim: Aim, now: &[u32], growth: f64, most: u32) -> Vec<u32> {
+            let mut next = Vec::new();
+            self.choose(aim, now, growth, most, &mut next);
+            next
+        }
+    }
+
     fn allocation(variances: &[f32], counts: &[u32], exponent: f64) -> Allocation {
-        Allocation::new(variances, counts, exponent)
+        let mut allocation = Allocation::default();
+        allocation.update(variances, counts, exponent);
+        allocation
     }
 
     /// Returns the number of samples after the pass and the error that the model predicts.

@@ -18,6 +18,7 @@ const PIXELS_PER_TASK: usize = 1 << 15;
 /// Pixels on each side of the window's centre.
 const RADIUS: usize = 3;
 
+/// Its memory is kept from pass to pass: the system takes longer to give it than the estimate takes.
 #[derive(Default)]
 pub struct Estimate {
     /// The variance of the mean over both halves, averaged over the channels.
@@ -27,6 +28,10 @@ pub struct Estimate {
     pub mse: f64,
     /// The standard deviation of `mse`: a difference d of variance v has E d⁴ = 3v², and d² the variance 2v².
     pub deviation: f64,
+    seen: Vec<Seen>,
+    /// For each pixel the sums over the row and over all of its window, of both estimates of the variance.
+    rows: Vec<[f32; 2]>,
+    windows: Vec<[f32; 2]>,
 }
 
 /// The statistics of one pixel.
@@ -43,23 +48,47 @@ struct Seen {
 
 impl Estimate {
     /// Estimates all variances; `bright` is true if the scene is known to contain something small and bright.
-    pub fn new(sums: &HalfSums, counts: &[u32], bright: bool) -> Estimate {
+    pub fn update(&mut self, sums: &HalfSums, counts: &[u32], bright: bool) {
         let (width, height) = (sums.width as usize, sums.height as usize);
-        let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
-        let differences = seen.iter().map(|s| f64::from(s.difference));
+        (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect_into_vec(&mut self.seen);
+        let differences = self.seen.iter().map(|s| f64::from(s.difference));
         let (sum, squares) = differences.fold((0.0, 0.0), |(sum, squares), d| (sum + d, squares + d * d));
-        let [mse, deviation] = [sum, (2.0 / 3.0 * squares).sqrt()].map(|v| v / seen.len() as f64);
-        let windows = window_sums(&seen, width, height);
+        [self.mse, self.deviation] = [sum, (2.0 / 3.0 * squares).sqrt()].map(|v| v / counts.len() as f64);
+        self.sum_windows(width, height);
+        let (seen, windows) = (&self.seen, &self.windows);
         let variance = |i: usize| {
             let [difference, spread] = windows[i];
             let own = if spread > 0.0 { seen[i].spread * (difference / spread) } else { seen[i].difference };
             let n = 2.0 * counts[i] as f32;
-            own.max(contrast(&seen, i, width, height) / (3.0 * n * n))
+            own.max(contrast(seen, i, width, height) / (3.0 * n * n))
         };
+        (0..seen.len()).into_par_iter().map(variance).collect_into_vec(&mut self.variances);
+        unseen::correct(&mut self.variances, |i| seen[i].halves, counts, width, bright);
         let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
-        let mut variances: Vec<f32> = (0..seen.len()).into_par_iter().map(variance).collect();
-        unseen::correct(&mut variances, |i| seen[i].halves, counts, width, bright);
-        Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse, deviation }
+        seen.par_iter().zip(counts).map(spread).collect_into_vec(&mut self.spreads);
+    }
+
+    /// Sums both estimates of the variance over each pixel's window.
+    fn sum_windows(&mut self, width: usize, height: usize) {
+        let add = |a: [f32; 2], b: [f32; 2]| [a[0] + b[0], a[1] + b[1]];
+        let around = |at: usize, size: usize| at.saturating_sub(RADIUS)..(at + RADIUS + 1).min(size);
+        let Estimate { seen, rows, windows, .. } = self;
+        rows.resize(seen.len(), [0.0; 2]);
+        rows.par_chunks_mut(width).zip(seen.par_chunks(width)).for_each(|(out, row)| {
+            for (x, out) in out.iter_mut().enumerate() {
+                *out =
+                    row[around(x, width)].iter().fold([0.0; 2], |sum, s| add(sum, [s.difference, s.spread]));
+            }
+        });
+        windows.resize(seen.len(), [0.0; 2]);
+        windows.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+            out.fill([0.0; 2]);
+            for row in around(y, height) {
+                for (out, value) in out.iter_mut().zip(&rows[row * width..(row + 1) * width]) {
+                    *out = add(*out, *value);
+                }
+            }
+        });
     }
 }
 
@@ -94,27 +123,6 @@ fn seen(sums: &HalfSums, count: u32, i: usize) -> Seen {
 /// Returns the mean over the channels.
 fn square(v: Vec3A) -> f32 {
     v.length_squared() * (1.0 / 3.0)
-}
-
-/// Returns for each pixel the sums over its window of both estimates of the variance.
-fn window_sums(seen: &[Seen], width: usize, height: usize) -> Vec<[f32; 2]> {
-    let add = |a: [f32; 2], b: [f32; 2]| [a[0] + b[0], a[1] + b[1]];
-    let around = |at: usize, size: usize| at.saturating_sub(RADIUS)..(at + RADIUS + 1).min(size);
-    let mut rows = vec![[0.0; 2]; seen.len()];
-    rows.par_chunks_mut(width).zip(seen.par_chunks(width)).for_each(|(out, row)| {
-        for (x, out) in out.iter_mut().enumerate() {
-            *out = row[around(x, width)].iter().fold([0.0; 2], |sum, s| add(sum, [s.difference, s.spread]));
-        }
-    });
-    let mut sums = vec![[0.0; 2]; seen.len()];
-    sums.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
-        for row in around(y, height) {
-            for (out, value) in out.iter_mut().zip(&rows[row * width..(row + 1) * width]) {
-                *out = add(*out, *value);
-            }
-        }
-    });
-    sums
 }
 
 /// Returns the largest squared difference to one of the four nearest pixels.
@@ -169,6 +177,12 @@ mod tests {
 
     const WIDTH: usize = 64;
 
+    fn estimate(sums: &HalfSums, counts: &[u32]) -> Estimate {
+        let mut estimate = Estimate::default();
+        estimate.update(sums, counts, false);
+        estimate
+    }
+
     /// Uniform random numbers of variance 1, at least for the samples that are requested here.
     fn noise(pixel: usize, half: usize, s: u32) -> f32 {
         // Two rounds of Jarzynski & Olano's pcg.
@@ -202,7 +216,7 @@ mod tests {
     fn random_samples_err_as_their_spread_says() {
         let counts = vec![32u32; WIDTH * WIDTH];
         let spread = |i: usize| if i % WIDTH < WIDTH / 2 { 0.1 } else { 1.0 };
-        let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts, false);
+        let estimate = estimate(&sums(&counts, |_| 0.5, spread), &counts);
         // Half of the pixels 0.01 / 64, half 1 / 64; for 4096 squares of a normal deviate 3 sigma are 9 %.
         let exact = 0.505 / 64.0;
         assert!((estimate.mse / exact - 1.0).abs() < 0.09, "{:e}, exactly {exact:e}", estimate.mse);
@@ -219,7 +233,7 @@ mod tests {
         let counts = vec![32u32; WIDTH * WIDTH];
         let mut same = sums(&counts, |_| 0.5, |_| 0.3);
         same.halves[1] = same.halves[0].clone();
-        let estimate = Estimate::new(&same, &counts, false);
+        let estimate = estimate(&same, &counts);
         assert_eq!(estimate.mse, 0.0);
         // The contrast of neighbours remains.
         assert!(estimate.variances.iter().all(|v| *v < 0.01 * 0.09 / 64.0));
@@ -229,7 +243,7 @@ mod tests {
     fn a_pixel_beside_an_edge_that_no_sample_met_keeps_a_variance() {
         let counts = vec![8u32; WIDTH * 8];
         let edge = |i: usize| if i % WIDTH < 20 { 0.0 } else { 1.0 };
-        let estimate = Estimate::new(&sums(&counts, edge, |_| 0.0), &counts, false);
+        let estimate = estimate(&sums(&counts, edge, |_| 0.0), &counts);
         for (i, v) in estimate.variances.iter().enumerate() {
             let wanted = if [19, 20].contains(&(i % WIDTH)) { 1.0 / (3.0 * 256.0) } else { 0.0 };
             assert!((v - wanted).abs() < 1e-6, "{i}: {v:e}, not {wanted:e}");

@@ -1,10 +1,11 @@
 //! The pixels of a picture that is sampled to a goal, kept by the host. Input: any backend, whose sums are read after each
 //! pass. Output: batches of samples for it, and what `Pixels` tells the loop of passes.
 
-use std::collections::BTreeMap;
-
 use super::allocate::Allocation;
+use rayon::prelude::*;
+
 use super::audit;
+use super::batch_lists::BatchLists;
 use super::draws::Masses;
 use super::estimate::Estimate;
 use super::explore::Explorer;
@@ -12,15 +13,9 @@ use super::resolved::{ResolvedPixels, shares};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
-use crate::core::range::{Range, Rect};
 use crate::sampling::{
-    AuditPlan, Audited, Backend, Block, Count, Drawn, Estimated, FilmSums, HalfSums, PilotRun, Pixels, Plan,
-    Planned, Raises,
+    AuditPlan, Audited, Backend, Drawn, Estimated, HalfSums, PilotRun, Pixels, Plan, Planned, Raises,
 };
-use crate::schema::layout::PixelBatch;
-
-/// Rows of the film that are made at once.
-const FILM_ROWS: u32 = 64;
 
 pub struct HostPixels<'b> {
     backend: &'b mut dyn Backend,
@@ -30,6 +25,8 @@ pub struct HostPixels<'b> {
     counts: Vec<u32>,
     next: Vec<u32>,
     estimate: Estimate,
+    allocation: Allocation,
+    lists: BatchLists,
     /// Seconds of the last samples.
     sampling: f64,
     explorer: Explorer,
@@ -46,6 +43,8 @@ impl<'b> HostPixels<'b> {
             next: counts.clone(),
             counts,
             estimate: Estimate::default(),
+            allocation: Allocation::default(),
+            lists: BatchLists::default(),
             sampling: 0.0,
             explorer: Explorer::default(),
             resolved: ResolvedPixels::default(),
@@ -73,20 +72,20 @@ impl Pixels for HostPixels<'_> {
     }
 
     fn plan(&mut self, plan: &Plan) -> Result<Planned> {
-        let allocation = Allocation::new(&self.estimate.variances, &self.counts, plan.exponent);
-        self.next = allocation.counts(plan.aim, &self.counts, plan.growth, plan.most);
+        self.allocation.update(&self.estimate.variances, &self.counts, plan.exponent);
+        self.allocation.choose(plan.aim, &self.counts, plan.growth, plan.most, &mut self.next);
         // If no pixel that matters may have more samples, exploring does not help either.
         if self.next != self.counts || plan.explores {
             self.explorer.visit(&mut self.next, &self.counts, &self.estimate.spreads);
         }
-        Ok(Planned { gains: self.next != self.counts, cost: allocation.cost(plan.aim) })
+        Ok(Planned { gains: self.next != self.counts, cost: self.allocation.cost(plan.aim) })
     }
 
     fn sample(&mut self, progress: &dyn Progress) -> Result<()> {
         let begun = self.backend.seconds();
         match (equal(&self.counts), equal(&self.next)) {
             (Some(now), Some(next)) => self.backend.sample_all(self.size, now, next - now, progress)?,
-            _ => self.backend.sample(&batches(&self.counts, &self.next, self.size[0]), progress)?,
+            _ => self.backend.sample(self.lists.list(&self.counts, &self.next, self.size[0]), progress)?,
         }
         self.sampling = self.backend.seconds() - begun;
         self.counts.clone_from(&self.next);
@@ -96,7 +95,7 @@ impl Pixels for HostPixels<'_> {
     fn estimate(&mut self, bright: bool) -> Result<Estimated> {
         self.backend.read(&mut self.sums)?;
         self.resolved.replace(&mut self.sums, &self.counts);
-        self.estimate = Estimate::new(&self.sums, &self.counts, bright);
+        self.estimate.update(&self.sums, &self.counts, bright);
         self.resolved.clear_variances(&mut self.estimate.variances);
         let estimated = Estimated {
             taken: total(&self.counts),
@@ -144,24 +143,13 @@ impl Pixels for HostPixels<'_> {
         Ok(())
     }
 
-    /// The samples of the second half follow those of the first.
     fn write_to(&mut self, film: &mut Film) -> Result<()> {
-        let most = self.counts.iter().copied().max().unwrap_or(0);
-        for pixels in Rect::whole(self.size).strips(FILM_ROWS) {
-            let first = pixels.y as usize * self.width();
-            let places = first..first + pixels.area();
-            let half = |half: u32| {
-                let own = &self.sums.halves[half as usize][places.clone()];
-                let mut block = Block::new(Range { pixels, samples: half * most..(half + 1) * most });
-                block.sums = own.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
-                block.squares = own.iter().map(|&[.., squares]| f64::from(squares)).collect();
-                block.count = Count::Each(self.counts[places.clone()].to_vec());
-                FilmSums::from(block)
-            };
-            let mut both = half(0);
-            both.merge(half(1))?;
-            both.write_to(film);
-        }
+        let [first, second] = &self.sums.halves;
+        let mean = |(((pixel, a), b), &count): (((&mut [f32; 3], &[f32; 4]), &[f32; 4]), &u32)| {
+            let samples = 2.0 * f64::from(count);
+            *pixel = std::array::from_fn(|c| ((f64::from(a[c]) + f64::from(b[c])) / samples) as f32);
+        };
+        film.pixels.par_iter_mut().zip(first).zip(second).zip(&self.counts).for_each(mean);
         Ok(())
     }
 
@@ -179,29 +167,6 @@ fn equal(counts: &[u32]) -> Option<u32> {
 /// Returns the samples of both halves.
 fn total(counts: &[u32]) -> f64 {
     2.0 * counts.iter().map(|&n| f64::from(n)).sum::<f64>()
-}
-
-/// Returns the batches that take each half of each pixel from `counts` to `next` samples, longest first, so that
-/// neighbouring threads have equal amounts of work.
-fn batches(counts: &[u32], next: &[u32], width: u32) -> Vec<PixelBatch> {
-    // There are few different lengths, so pixels are put into buckets instead of sorted.
-    let mut lengths: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for (i, (&now, &next)) in (0..).zip(counts.iter().zip(next)) {
-        if next > now {
-            lengths.entry(next - now).or_default().push(i);
-        }
-    }
-    let batch = |i: u32, half, count| PixelBatch {
-        place: PixelBatch::place_of(i, width),
-        part: PixelBatch::part_of(half),
-        first: counts[i as usize],
-        count,
-    };
-    let both = |(count, pixels): (u32, Vec<u32>)| {
-        let pair = |i: u32| [batch(i, 0, count), batch(i, 1, count)];
-        pixels.into_iter().flat_map(pair).collect::<Vec<_>>()
-    };
-    lengths.into_iter().rev().flat_map(both).collect()
 }
 
 #[cfg(test)]

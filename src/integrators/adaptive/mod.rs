@@ -7,6 +7,7 @@ mod allocate;
 mod analytic;
 mod audit;
 mod auditor;
+mod batch_lists;
 mod draws;
 mod estimate;
 mod explore;
@@ -22,6 +23,7 @@ use crate::schema::constants::{COUNT_OCTAVES, MAX_HALF_SAMPLES};
 
 pub use audit::{CONFIDENCE, sample_drawn};
 pub use draws::{DrawRates, DrawSums, first_draw};
+pub use host_pixels::HostPixels;
 pub use resolved::shares;
 pub use run::{Run, run};
 

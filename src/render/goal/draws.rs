@@ -75,13 +75,14 @@ impl DevicePixels<'_, '_> {
             budget: (plan.budget as f32).to_bits(),
             batch_part: plan.part,
             count: parts,
+            part_samples: GOAL_PART_SAMPLES,
             ..self.push
         };
         let draw = [Kind::WeighCells, Kind::SumMasses, Kind::DrawPixels].map(|kind| (kind, push));
         let mut words = vec![0; (GOAL_DRAWS - GOAL_DRAWN + most * GOAL_DRAW_WORDS) as usize];
-        self.make_room(parts)?;
         let listed = Listed { batches: &self.parts.list, lengths: &[(parts, GOAL_PART_SAMPLES)] };
-        if let Some(at_once) = self.backend.batches()?.0.listed_at_once(&listed) {
+        let fits = parts <= self.parts.room;
+        if let Some(at_once) = self.backend.sampler()?.0.listed_at_once(&listed).filter(|_| fits) {
             let list = draw.into_iter().chain([Kind::DrawParts, Kind::EndParts].map(|kind| (kind, push)));
             self.ahead.extend(list.map(|(kind, push)| Ahead::Step(kind, push)));
             self.ahead.push(Ahead::Parts(at_once));

@@ -9,9 +9,10 @@ mod steps;
 pub use steps::GoalSteps;
 use steps::Parts;
 
-use super::backend::DeviceBackend;
+use super::Report;
 use super::batch_lists::AtOnce;
-use crate::core::error::{Error, Result};
+use super::batches::BatchSampler;
+use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu};
@@ -37,13 +38,23 @@ enum Ahead {
     Parts(AtOnce),
 }
 
+/// The backend whose device keeps the pixels.
+pub trait GoalBackend<'p>: Backend {
+    fn gpu(&self) -> &'p Gpu;
+
+    /// Returns what takes the samples, and the report of the render.
+    fn sampler(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)>;
+
+    /// Returns true if pixels have different numbers of samples in the first pass.
+    fn first_samples_differ(&self) -> bool;
+}
+
 pub struct DevicePixels<'b, 'p> {
-    backend: &'b mut DeviceBackend<'p>,
+    backend: &'b mut dyn GoalBackend<'p>,
     gpu: &'p Gpu,
     steps: &'p GoalSteps,
-    film: Buffer,
     resolved: Option<Buffer>,
-    parts: Parts,
+    parts: &'p Parts,
     group: BindGroup,
     sample_groups: [BindGroup; 2],
     ahead: Vec<Ahead>,
@@ -60,13 +71,11 @@ pub struct DevicePixels<'b, 'p> {
 }
 
 impl<'b, 'p> DevicePixels<'b, 'p> {
-    pub fn new(backend: &'b mut DeviceBackend<'p>, steps: &'p GoalSteps) -> Result<DevicePixels<'b, 'p>> {
-        let gpu = backend.prepared.session.gpu;
-        let film = backend.batches()?.0.film().cloned();
-        let film = film.ok_or_else(|| Error::new("the sums of a picture are in several buffers"))?;
-        let parts = steps.long.clone();
-        let group = steps.bind(gpu, &film, None, &parts)?;
-        let sample_groups = sample_groups(backend, steps, &film, &parts)?;
+    pub fn new(backend: &'b mut dyn GoalBackend<'p>, steps: &'p GoalSteps) -> Result<DevicePixels<'b, 'p>> {
+        let gpu = backend.gpu();
+        let parts = &steps.long;
+        let group = steps.bind(gpu, None)?;
+        let sample_groups = sample_groups(backend, steps)?;
         let [width, height] = steps.size;
         let push = GoalStep { width, height, parts: steps.parts(), ..GoalStep::default() };
         let next = Next::All { now: 0, next: 0 };
@@ -75,7 +84,6 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
             backend,
             gpu,
             steps,
-            film,
             resolved: None,
             parts,
             group,
@@ -117,8 +125,10 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
         }
         let out = bytemuck::cast_slice_mut(words);
         let time = self.gpu.run_and_read(&dispatches, &self.steps.totals, 4 * u64::from(first), out)?;
-        self.backend.learn(samples, time)?;
+        let (sampler, report) = self.backend.sampler()?;
+        report.add_slice(time);
         if samples > 0.0 {
+            sampler.passes.learn(samples, time);
             self.sampling += time.wall_seconds;
         }
         Ok(())
@@ -133,17 +143,7 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
     }
 
     fn bind(&mut self) -> Result<()> {
-        self.group = self.steps.bind(self.gpu, &self.film, self.resolved.as_ref(), &self.parts)?;
-        Ok(())
-    }
-
-    /// Makes room for this number of parts.
-    fn make_room(&mut self, parts: u32) -> Result<()> {
-        if !self.parts.hold(parts) {
-            self.parts = Parts::new(self.gpu, parts)?;
-            self.bind()?;
-            self.sample_groups = sample_groups(self.backend, self.steps, &self.film, &self.parts)?;
-        }
+        self.group = self.steps.bind(self.gpu, self.resolved.as_ref())?;
         Ok(())
     }
 
@@ -155,14 +155,9 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
 }
 
 /// Binds the film with the list of batches, and the sums of parts with theirs.
-fn sample_groups(
-    backend: &mut DeviceBackend<'_>,
-    steps: &GoalSteps,
-    film: &Buffer,
-    parts: &Parts,
-) -> Result<[BindGroup; 2]> {
-    let passes = &backend.batches()?.0.passes;
-    Ok([passes.bind(film, &steps.batches)?, passes.bind(&parts.sums, &parts.list)?])
+fn sample_groups(backend: &mut dyn GoalBackend<'_>, steps: &GoalSteps) -> Result<[BindGroup; 2]> {
+    let passes = &backend.sampler()?.0.passes;
+    Ok([passes.bind(&steps.film, &steps.batches)?, passes.bind(&steps.long.sums, &steps.long.list)?])
 }
 
 /// Words of a plan: from its multiplier to the classes of its batches.
@@ -178,13 +173,13 @@ impl Pixels for DevicePixels<'_, '_> {
         let plan = [(Kind::PlanAll, none), (Kind::TakeCounts, none), (Kind::PlanAll, all)];
         self.ahead.extend(plan.map(|(kind, push)| Ahead::Step(kind, push)));
         self.next = Next::All { now: 0, next: most };
-        if self.backend.prepared.session.tile_culling().is_some() {
+        if self.backend.first_samples_differ() {
             self.run::<1>(&[], GOAL_MULTIPLIER)?;
             let counts = self.backend.first_samples(most, self.steps.count() as usize)?;
             let offset = 4 * u64::from(GOAL_NEXT) * u64::from(self.steps.count());
             self.gpu.write_buffer(&self.steps.pixels, offset, bytemuck::cast_slice(&counts))?;
-            let empty = [0u32; 2 * GOAL_CLASSES as usize];
-            let offset = 4 * u64::from(GOAL_CLASSES_AT);
+            let empty = [0u32; PLAN_WORDS + GOAL_CLASSES as usize];
+            let offset = 4 * u64::from(GOAL_MULTIPLIER);
             self.gpu.write_buffer(&self.steps.totals, offset, bytemuck::cast_slice(&empty))?;
             let list = [(Kind::ChooseCounts, self.push), (Kind::ListBatches, self.push)];
             let words: [u32; PLAN_WORDS] = self.run(&list, GOAL_MULTIPLIER)?;

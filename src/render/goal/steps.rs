@@ -9,6 +9,7 @@ use crate::core::error::Result;
 use crate::gpu::shaders::{self, ReflectedBinding};
 use crate::gpu::{BindGroup, Bound, Buffer, BufferUse, Dispatch, Gpu, Pipeline};
 use crate::pack::{PackedScene, SlotCounts};
+use crate::render::batches::PIXEL_BYTES;
 use crate::render::build_pipeline;
 use crate::schema::bindings;
 use crate::schema::blocks::{GoalStep, PixelBatch};
@@ -21,7 +22,7 @@ use crate::schema::specialization::Constant;
 
 /// Pixels of a workgroup that fills bins.
 const PIXELS_OF_BINS: u32 = 16 * GOAL_THREADS;
-/// Parts of batches for which there is room from the start: four for each pixel, but at least and at most these.
+/// Parts of batches for which there is room: four for each pixel, but at least and at most these.
 const LEAST_PARTS: u64 = 1 << 16;
 const MOST_PARTS: u64 = 1 << 22;
 /// Workgroups in a row; every device supports 65535.
@@ -30,31 +31,25 @@ const LONGEST_ROW: u32 = 1 << 15;
 pub struct GoalSteps {
     pipelines: Vec<Arc<Pipeline>>,
     pub size: [u32; 2],
+    /// Sums of both halves of all pixels.
+    pub film: Buffer,
     pub pixels: Buffer,
     pub totals: Buffer,
     pub batches: Buffer,
-    /// Parts of long batches; more room for them is made when it is needed.
     pub long: Parts,
 }
 
 /// Parts of long batches.
-#[derive(Clone)]
 pub struct Parts {
     pub list: Buffer,
     pub sums: Buffer,
-    room: u32,
+    pub room: u32,
 }
 
 impl Parts {
-    /// Returns buffers for at least `count` parts.
-    pub fn new(gpu: &Gpu, count: u32) -> Result<Parts> {
-        let room = count.next_power_of_two();
+    fn new(gpu: &Gpu, room: u32) -> Result<Parts> {
         let buffer = |name| gpu.buffer(name, 16 * u64::from(room), BufferUse::Storage);
         Ok(Parts { list: buffer("parts of batches")?, sums: buffer("sums of parts")?, room })
-    }
-
-    pub fn hold(&self, count: u32) -> bool {
-        count <= self.room
     }
 }
 
@@ -67,11 +62,12 @@ impl GoalSteps {
         let pixel_bytes = 4 * pixels * u64::from(GOAL_ARRAYS);
         let totals_bytes = 4 * (u64::from(GOAL_PARTIALS) + u64::from(GOAL_COLUMNS) * u64::from(parts(size)));
         let batch_bytes = 2 * pixels * size_of::<PixelBatch>() as u64;
+        let film_bytes = pixels * PIXEL_BYTES;
         let limits = &gpu.info().limits;
-        let largest = pixel_bytes.max(batch_bytes).max(totals_bytes);
+        let largest = pixel_bytes.max(batch_bytes).max(totals_bytes).max(film_bytes);
         if scene.mean_sign.is_some()
             || largest > limits.max_storage_buffer_range
-            || pixel_bytes + 2 * batch_bytes > limits.heap_bytes / 4
+            || pixel_bytes + 3 * film_bytes + batch_bytes > limits.heap_bytes / 2
         {
             return Ok(None);
         }
@@ -88,6 +84,7 @@ impl GoalSteps {
         Ok(Some(GoalSteps {
             pipelines,
             size,
+            film: buffer("film", film_bytes)?,
             pixels: buffer("goal pixels", pixel_bytes)?,
             totals,
             batches: buffer("goal batches", batch_bytes)?,
@@ -105,22 +102,16 @@ impl GoalSteps {
         parts(self.size)
     }
 
-    /// Binds a film of two halves; pixels that beams resolved, if there are any; and parts of batches with their sums.
-    pub fn bind(
-        &self,
-        gpu: &Gpu,
-        film: &Buffer,
-        resolved: Option<&Buffer>,
-        parts: &Parts,
-    ) -> Result<BindGroup> {
+    /// Binds pixels that beams resolved, if there are any.
+    pub fn bind(&self, gpu: &Gpu, resolved: Option<&Buffer>) -> Result<BindGroup> {
         let resource = |b: &ReflectedBinding| {
             let buffer = match b.binding {
-                bindings::OUTPUT => film,
+                bindings::OUTPUT => &self.film,
                 bindings::LIST => &self.batches,
                 bindings::GOAL_PIXELS => &self.pixels,
-                bindings::GOAL_RESOLVED => resolved.unwrap_or(film),
-                bindings::GOAL_PARTS => &parts.list,
-                bindings::GOAL_PART_SUMS => &parts.sums,
+                bindings::GOAL_RESOLVED => resolved.unwrap_or(&self.film),
+                bindings::GOAL_PARTS => &self.long.list,
+                bindings::GOAL_PART_SUMS => &self.long.sums,
                 _ => &self.totals,
             };
             (b.binding, Bound::Buffer(buffer))

@@ -122,7 +122,7 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
             let mut backend = OracleBackend::new(&scene).unwrap();
             let oracle = adaptive::run(
                 &mut backend,
-                Film::new(width, height, 0),
+                moire::internal::core::film::Film::new(width, height, 0),
                 Goal::Samples(2),
                 false,
                 &NoProgress,
