@@ -129,7 +129,6 @@ impl Backend for OracleBackend<'_> {
         let pixel = |x, y| sums(scene, &scene.header, [x, y], 0, range.samples.clone());
         let pixels = self.pixels(range.pixels, progress, pixel)?;
         block.sums = pixels.iter().map(|p| p.sum.to_array()).collect();
-        block.squares = pixels.iter().map(|p| p.squares).collect();
         block.signed = scene.mean_sign.map(|mean_sign| Signed {
             mean_sign,
             negative: pixels.iter().map(|p| p.negative.to_array()).collect(),

@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 /// Bytes of a band before it is compressed: enough that threads are handed work rarely, few enough for a cache.
-const BAND_BYTES: usize = 256 << 10;
+pub(super) const BAND_BYTES: usize = 256 << 10;
 
 /// Encodes `rows` rows of `row_bytes` bytes each by `encode`, into slots that `slot` makes, and passes the slots to
 /// `write` in order.

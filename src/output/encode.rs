@@ -1,8 +1,7 @@
 //! Encodes a film as the bytes of one file format. EXR and HDR keep linear light; PNG, JPEG and
 //! TIFF get values clipped to [0, 1] and sRGB-encoded, with neither dithering nor a tone map.
 
-use std::io::Write;
-
+use super::sink::Sink;
 use super::{WriteOptions, exr, hdr, jpeg, png, tiff};
 use crate::core::film::Film;
 use crate::core::named::named_enum;
@@ -19,7 +18,7 @@ named_enum! {
 }
 
 /// Encodes a film. The error states only the cause; the caller knows the file's name.
-pub fn encode(film: &Film, format: Format, options: &WriteOptions, to: &mut dyn Write) -> Result<(), String> {
+pub fn encode(film: &Film, format: Format, options: &WriteOptions, to: &mut dyn Sink) -> Result<(), String> {
     match format {
         Format::Exr => exr::write(film, options, to),
         Format::Hdr => hdr::write(film, to).map_err(|e| e.to_string()),

@@ -11,10 +11,10 @@ mod jpeg;
 mod png;
 mod png_filter;
 mod quantise;
+mod sink;
 mod target;
 mod tiff;
 
-use std::io::Write;
 use std::path::Path;
 
 use crate::core::error::{Error, Result};
@@ -129,7 +129,7 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
         )
     };
     let stage = format!("{}: writing this picture", path.display());
-    panics::contain(&stage, || encode::encode(film, format, options, &mut target.writer()).map_err(failed))?;
+    panics::contain(&stage, || encode::encode(film, format, options, target.writer()).map_err(failed))?;
     target.complete()?;
     Ok(target)
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use super::sink::Sink;
 use crate::core::error::{Error, Result};
 
 /// The buffer gathers small writes, as of heads and chunks; bands of rows pass it by.
@@ -35,8 +36,8 @@ impl Target {
         Ok(Target { path: path.to_path_buf(), destination, file: BufWriter::with_capacity(BUFFER, file) })
     }
 
-    pub fn writer(&mut self) -> impl Write {
-        &mut self.file
+    pub fn writer(&mut self) -> &mut dyn Sink {
+        self
     }
 
     /// Writes all bytes to the temporary file, so that a full disk is detected before the rename.
@@ -48,6 +49,22 @@ impl Target {
         let file = self.file.into_inner().map_err(|e| failed(&self.path, &e.into_error()))?;
         file.persist(&self.destination).map_err(|e| failed(&self.path, &e.error))?;
         Ok(())
+    }
+}
+
+impl Write for Target {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Sink for Target {
+    fn file(&self) -> Option<&File> {
+        Some(self.file.get_ref().as_file())
     }
 }
 

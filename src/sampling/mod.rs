@@ -9,4 +9,4 @@ mod sums;
 pub use backend::{Backend, HalfSums, PilotRun};
 pub use pixels::{Aim, AuditPlan, Audited, Drawn, Estimated, Pixels, Plan, Planned, Raises};
 pub use scheduler::Scheduler;
-pub use sums::{Block, Count, FilmSums, PixelSums, Signed};
+pub use sums::{Block, FilmSums, PixelSums, Signed};

@@ -17,21 +17,10 @@ pub struct Block {
     pub range: Range,
     /// Sums of red, green and blue; each sample has the sign of the pixel filter at its position.
     pub sums: Vec<[f64; 3]>,
-    /// Sums of the mean of each sample's squared channels; empty if not requested.
-    pub squares: Vec<f64>,
-    pub count: Count,
     /// Present if the pixel filter has negative lobes.
     pub signed: Option<Signed>,
     /// The weight that cones dropped, summed over all pixels.
     pub dropped: f64,
-}
-
-/// The number of samples in each sum.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Count {
-    /// The same number for all pixels.
-    All(u32),
-    Each(Vec<u32>),
 }
 
 /// The terms that turn sums of signed samples into means: see [`filtered_mean`].
@@ -43,15 +32,6 @@ pub struct Signed {
     pub negative: Vec<[f64; 3]>,
     /// Sums of the signs, which are the weights of the samples.
     pub weights: Vec<f64>,
-}
-
-impl Count {
-    fn at(&self, index: usize) -> u32 {
-        match self {
-            Count::All(count) => *count,
-            Count::Each(counts) => counts[index],
-        }
-    }
 }
 
 /// The sums of one pixel.
@@ -90,9 +70,8 @@ impl PixelSums {
 impl Block {
     /// Returns sums of no samples, with capacity for all pixels, which are pushed in order.
     pub fn new(range: Range) -> Block {
-        let count = Count::All(range.depth());
         let sums = Vec::with_capacity(range.pixels.area());
-        Block { range, sums, squares: Vec::new(), count, signed: None, dropped: 0.0 }
+        Block { range, sums, signed: None, dropped: 0.0 }
     }
 
     fn pixel(&self, x: u32, y: u32) -> PixelSums {
@@ -103,7 +82,7 @@ impl Block {
             sum: self.sums[i],
             negative: signed.map_or([0.0; 3], |s| s.negative[i]),
             weight: signed.map_or(0.0, |s| s.weights[i]),
-            samples: f64::from(self.count.at(i)),
+            samples: f64::from(self.range.depth()),
         }
     }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use moire::internal::core::color::{linear_to_srgb, srgb_to_linear};
 use moire::internal::core::film::{Film, Placement};
 use moire::internal::lab::metrics::{read_picture, read_placed};
-use moire::internal::output::{WriteOptions, check_writable, write, write_all};
+use moire::internal::output::{ENDINGS, Format, WriteOptions, check_writable, to_bytes, write, write_all};
 use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::internal::texture::decode::decode;
 use tempfile::tempdir;
@@ -269,4 +269,22 @@ fn of_several_pictures_all_are_written_or_none() {
     assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
     write_all(&gradient(7, 1), &paths, &WriteOptions::default()).unwrap();
     assert_eq!(names(folder.path()), ["a.exr", "b.jpg"]);
+}
+
+/// Rows of an EXR file are written by all threads at once.
+#[test]
+fn files_have_the_bytes_of_a_stream() {
+    let folder = tempdir().unwrap();
+    for (width, height) in [(1, 1), (7, 3000), (1500, 90)] {
+        let film = gradient(width, height);
+        for format in [Format::Exr, Format::Hdr, Format::Png, Format::Tiff] {
+            let path =
+                folder.path().join("a.exr").with_extension(ENDINGS.iter().find(|e| e.1 == format).unwrap().0);
+            write(&film, &path, &WriteOptions::default()).unwrap();
+            assert!(
+                fs::read(&path).unwrap() == to_bytes(&film, format).unwrap(),
+                "{format} of {width}×{height}"
+            );
+        }
+    }
 }

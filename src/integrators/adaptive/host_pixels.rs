@@ -145,11 +145,11 @@ impl Pixels for HostPixels<'_> {
 
     fn write_to(&mut self, film: &mut Film) -> Result<()> {
         let [first, second] = &self.sums.halves;
-        let mean = |(((pixel, a), b), &count): (((&mut [f32; 3], &[f32; 4]), &[f32; 4]), &u32)| {
-            let samples = 2.0 * f64::from(count);
-            *pixel = std::array::from_fn(|c| ((f64::from(a[c]) + f64::from(b[c])) / samples) as f32);
-        };
-        film.pixels.par_iter_mut().zip(first).zip(second).zip(&self.counts).for_each(mean);
+        film.pixels.par_iter_mut().enumerate().for_each(|(i, pixel)| {
+            let samples = 2.0 * f64::from(self.counts[i]);
+            let mean = |c: usize| (f64::from(first[i][c]) + f64::from(second[i][c])) / samples;
+            *pixel = std::array::from_fn(|c| mean(c) as f32);
+        });
         Ok(())
     }
 

@@ -137,13 +137,3 @@ fn what_would_count_twice_or_is_missing_is_refused() {
     let error = sums.to_film([13, 9], 8).unwrap_err().to_string();
     assert!(error.contains("204 of 936 samples"), "{error}");
 }
-
-#[test]
-fn each_pixel_is_divided_by_its_own_count() {
-    let mut block = Block::new(Range { pixels: Rect::whole([2, 1]), samples: 0..4 });
-    block.sums = vec![[8.0; 3]; 2];
-    block.count = Count::Each(vec![4, 2]);
-    let mut film = Film::new(2, 1, 3);
-    FilmSums::from(block).write_to(&mut film);
-    assert_eq!(film.pixels, [[2.0; 3], [4.0; 3]]);
-}
