@@ -1,7 +1,8 @@
 //! The measurements that the README states: `cargo bench`, `cargo bench -- filters` for the errors
 //! of filters at equal time, `cargo bench -- patterns` for those of sample patterns, `cargo bench
 //! -- pixel-filters` for those of pixel filters, `cargo bench -- cones` for cones against samples,
-//! `cargo bench -- mips` for mip chains alone, `cargo bench -- meshes` for a million triangles. Runs the program itself on the scenes of
+//! `cargo bench -- mips` for mip chains alone, `cargo bench -- meshes` for a million triangles, `cargo
+//! bench -- scaling` for time against the amount of work. Runs the program itself on the scenes of
 //! `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean to full
 //! pipelines from interleaved runs, errors against the float64 references. `MOIRE_DEVICE` chooses
 //! the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
@@ -12,6 +13,8 @@ mod meshes;
 mod mips;
 mod patterns;
 mod pixel_filters;
+mod scaling;
+mod scaling_scenes;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -58,15 +61,27 @@ impl Bench {
     }
 
     fn run_file(&self, scene: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Run> {
+        self.run_to(&self.out(), scene, options, environment)
+    }
+
+    fn run_to(
+        &self,
+        picture: &str,
+        scene: &str,
+        options: &[&str],
+        environment: &[(&str, &str)],
+    ) -> Outcome<Run> {
         let clock = Instant::now();
         let output = Command::new(program())
-            .args(["render", scene, "-o", &self.out(), "--json", "-q", "--device", &self.device])
+            .args(["render", scene, "-o", picture, "--json", "-q", "--device", &self.device])
             .args(options)
             .envs(environment.iter().copied())
             .output()?;
         let wall = clock.elapsed().as_secs_f64();
         if !output.status.success() {
-            return Err(String::from_utf8_lossy(&output.stderr).into());
+            // A program that was killed says nothing.
+            let message = String::from_utf8_lossy(&output.stderr);
+            return Err(if message.is_empty() { output.status.to_string().into() } else { message.into() });
         }
         Ok(Run { json: serde_json::from_slice(&output.stdout)?, wall })
     }
@@ -162,6 +177,11 @@ fn main() -> Outcome<()> {
     let bench = Bench { device, runs, picture: tempfile::tempdir()? };
     let first = bench.run("s1a", &["--spp", "1"], &[])?;
     println!("{}, {runs} runs each\n", first.json["device"].as_str().unwrap_or("?"));
+    let mut arguments = std::env::args().skip_while(|argument| argument != "scaling");
+    if arguments.next().is_some() {
+        let kinds: Vec<String> = arguments.filter(|argument| !argument.starts_with('-')).collect();
+        return scaling::tables(&bench, &kinds);
+    }
     if std::env::args().any(|argument| argument == "filters") {
         return equal_time::table(&bench);
     }

@@ -9,43 +9,48 @@ use crate::{Bench, Outcome};
 const AROUND: u32 = 1024;
 const DOWN: u32 = 489;
 
-/// The mesh as PLY.
-fn ply() -> Vec<u8> {
-    let count = (AROUND + 1) * (DOWN + 1);
-    let faces = 2 * AROUND * DOWN;
+/// Returns a mesh of 2 · `around_count` · (`down_count` − 1) triangles, beside those of no area at its poles, as PLY.
+pub fn ply(around_count: u32, down_count: u32) -> Vec<u8> {
+    let count = (around_count + 1) * (down_count + 1);
+    let faces = 2 * around_count * down_count;
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty float x\nproperty float y\n\
          property float z\nproperty float u\nproperty float v\nelement face {faces}\n\
          property list uchar uint vertex_indices\nend_header\n"
     )
     .into_bytes();
-    for down in 0..=DOWN {
-        for around in 0..=AROUND {
+    // Waves of 3 to 48 radians a unit, alike in slope.
+    let waves: [(f64, [f64; 3]); 12] = std::array::from_fn(|k| {
+        let k = k as f64;
+        (3.0 * 1.28f64.powf(k), [k.cos(), (2.0 * k).sin(), (3.0 * k).cos()])
+    });
+    for down in 0..=down_count {
+        for around in 0..=around_count {
             let (theta, phi) = (
-                PI * f64::from(down) / f64::from(DOWN),
-                TAU * f64::from(around % AROUND) / f64::from(AROUND),
+                PI * f64::from(down) / f64::from(down_count),
+                TAU * f64::from(around % around_count) / f64::from(around_count),
             );
             let way = [theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()];
-            // Waves of 3 to 48 radians a unit, alike in slope.
-            let waves: f64 = (0..12)
-                .map(|k| {
-                    let frequency = 3.0 * 1.28f64.powi(k);
-                    let turn = [(k as f64).cos(), (2.0 * k as f64).sin(), (3.0 * k as f64).cos()];
+            let height: f64 = (0..)
+                .zip(&waves)
+                .map(|(k, (frequency, turn))| {
                     let along: f64 = turn.iter().zip(way).map(|(a, b)| a * b).sum();
                     (frequency * along + f64::from(k)).sin() * 0.12 / frequency
                 })
                 .sum();
-            let coordinates =
-                [4.0 * f64::from(around) / f64::from(AROUND), 2.0 * f64::from(down) / f64::from(DOWN)];
-            for number in way.map(|part| part * (1.0 + waves)).into_iter().chain(coordinates) {
+            let coordinates = [
+                4.0 * f64::from(around) / f64::from(around_count),
+                2.0 * f64::from(down) / f64::from(down_count),
+            ];
+            for number in way.map(|part| part * (1.0 + height)).into_iter().chain(coordinates) {
                 bytes.extend_from_slice(&(number as f32).to_le_bytes());
             }
         }
     }
-    for down in 0..DOWN {
-        for around in 0..AROUND {
-            let a = down * (AROUND + 1) + around;
-            let (b, c, d) = (a + 1, a + AROUND + 2, a + AROUND + 1);
+    for down in 0..down_count {
+        for around in 0..around_count {
+            let a = down * (around_count + 1) + around;
+            let (b, c, d) = (a + 1, a + around_count + 2, a + around_count + 1);
             for face in [[a, b, c], [a, c, d]] {
                 bytes.push(3);
                 face.iter().for_each(|index| bytes.extend_from_slice(&index.to_le_bytes()));
@@ -72,7 +77,7 @@ fn scene(is_lit: bool) -> String {
 /// Prints the medians.
 pub fn table(bench: &Bench) -> Outcome<()> {
     let folder = bench.picture.path();
-    fs::write(folder.join("million.ply"), ply())?;
+    fs::write(folder.join("million.ply"), ply(AROUND, DOWN))?;
     fs::copy("data/textures/bench/noise.png", folder.join("noise.png"))?;
     println!("\n| mesh of {} triangles, 1024² | samples | load s | render s |", 2 * AROUND * (DOWN - 1));
     println!("| --- | --- | --- | --- |");
