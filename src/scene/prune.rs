@@ -1,7 +1,10 @@
 //! Removes from a scene the parts that do not affect the picture: materials of no shape, textures and samplers of no
 //! material, lights if nothing reflects them; and merges textures that read the same texels. Indices are updated.
 
-use super::model::{Scene, TextureSource};
+use std::collections::HashMap;
+use std::path::Path;
+
+use super::model::{Scene, TextureContent, TextureSource};
 use crate::core::counted::{counted, verb};
 
 /// Prunes a scene; returns what was removed, for `-v`.
@@ -53,7 +56,16 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
 /// Replaces textures that read the same texels by the first of them, which is decoded and stored on devices once.
 fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
     let identities: Vec<TextureSource> = scene.textures.iter().map(TextureSource::identity).collect();
-    let first = |i: usize| identities.iter().position(|other| *other == identities[i]).unwrap_or(i);
+    // Only sources of the same files are compared.
+    let mut of_files: HashMap<Vec<&Path>, Vec<usize>> = HashMap::new();
+    let first = |i: usize| {
+        let alike = of_files.entry(files(&identities[i].content)).or_default();
+        let known = alike.iter().copied().find(|&other| identities[other] == identities[i]);
+        known.unwrap_or_else(|| {
+            alike.push(i);
+            i
+        })
+    };
     let firsts: Vec<usize> = (0..identities.len()).map(first).collect();
     for (i, &first) in firsts.iter().enumerate().filter(|(i, first)| i != *first) {
         let [this, other] = [i, first].map(|index| &scene.textures[index].name);
@@ -62,6 +74,14 @@ fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
     let kept = keep(&mut scene.textures, &firsts);
     let merged: Vec<usize> = firsts.iter().map(|&first| kept[first]).collect();
     point_to_textures(scene, &merged);
+}
+
+/// Returns the files of a texture, or the name of one that is within another.
+fn files(content: &TextureContent) -> Vec<&Path> {
+    match content {
+        TextureContent::Embedded(name, _) => vec![name],
+        _ => content.files(),
+    }
 }
 
 /// Updates the indices of textures; `textures` maps old to new.

@@ -1,6 +1,8 @@
 //! Warnings about textures that are valid but hardly intended: display pictures read as linear values, normal maps
 //! without normals. Input: a scene and its decoded textures.
 
+use std::collections::HashSet;
+
 use super::model::{BumpMap, Material, Scene};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::source::{TextureContent, TextureSource};
@@ -14,7 +16,8 @@ pub fn of_textures(scene: &Scene, textures: &[TextureData]) -> Vec<String> {
     let normals = |i: usize| scene.materials.iter().filter_map(|m| m.bump).any(|r| is_normals(r, i));
     let encoded = named(&|i, _, t| normals(i) && t.color_space == ColorSpace::Srgb);
     let grey = named(&|i, _, t| normals(i) && is_grey(t));
-    let pale = named(&|i, s, t| is_color(scene, i) && may_be_pale(s, t));
+    let colors = colors(scene);
+    let pale = named(&|i, s, t| colors.contains(&i) && may_be_pale(s, t));
     let mut told = Vec::new();
     if !encoded.is_empty() {
         told.push(format!(
@@ -44,13 +47,14 @@ fn is_normals(bump: BumpMap, texture: usize) -> bool {
     bump.kind.is_normal_map() && bump.texture == texture
 }
 
-fn is_color(scene: &Scene, texture: usize) -> bool {
+/// Returns the textures that are read as colours.
+fn colors(scene: &Scene) -> HashSet<usize> {
     let environment = scene.background.environment.map(|e| e.texture);
     let of = |m: &Material| {
         let maps = [m.emission_map, m.specular_tint_map].map(|map| map.map(|map| map.texture));
         [m.texture, maps[0], maps[1]]
     };
-    scene.materials.iter().flat_map(of).chain([environment]).any(|t| t == Some(texture))
+    scene.materials.iter().flat_map(of).chain([environment]).flatten().collect()
 }
 
 /// Returns true for an 8-bit picture whose encoding the scene does not state. Blacks and whites are the same in either
