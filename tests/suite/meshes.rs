@@ -4,6 +4,7 @@
 mod gltf;
 mod gltf_materials;
 mod instances;
+mod interlocked;
 mod left_out;
 mod libraries;
 mod lists;

@@ -21,7 +21,7 @@ macro_rules! kinds {
         $(mod $module;)+
 
         pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
-            mesh_forest::begin(packed, scene, &scene.shapes.meshes, scene.camera.eye);
+            mesh_forest::begin(packed, &scene.shapes.meshes);
             $(for shape in &scene.shapes.$list {
                 let record = $module::pack(packed, scene, shape, scene.camera.eye)?;
                 packed.records.$list.push(record);
@@ -29,7 +29,7 @@ macro_rules! kinds {
             if scene.shapes_move() {
                 packed.records.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
             }
-            mesh_forest::finish(packed);
+            mesh_forest::finish(packed, scene);
             Ok(())
         }
 
@@ -60,6 +60,17 @@ macro_rules! kinds {
             /// Shapes that lists of tiles hold.
             pub fn listed_shapes(&self) -> usize {
                 self.shapes_that(|properties| has(properties, "listed"))
+            }
+
+            /// Returns true if lists of tiles hold the shape of a number.
+            pub fn is_listed(&self, shape: usize) -> bool {
+                let lists = [$((has(&[$(stringify!($property)),*], "listed"), self.records.$list.len())),+];
+                let mut end = 0;
+                let own = lists.iter().find(|(_, length)| {
+                    end += length;
+                    shape < end
+                });
+                own.is_some_and(|(listed, _)| *listed)
             }
 
             /// Returns true if some shape may cast a shadow on itself or on another: a single flat one does not.
