@@ -1,5 +1,5 @@
-// The result of tile culling: for each square cell of pixels the triangles that its camera rays may meet, as CELL_WORDS
-// describes it. Single triangles are in the order of the scene.
+// The result of tile culling: for each square cell of pixels the shapes that its camera rays may meet, as CELL_WORDS
+// describes it. Single shapes are in the order of their numbers.
 #ifndef TILE_CULLING_GLSL
 #define TILE_CULLING_GLSL
 
@@ -18,7 +18,7 @@ struct Candidates {
 const Candidates ANYTHING = Candidates(NO_LIST, uvec4(0u), uvec4(0u));
 
 // Returns the first word of the cell of a film pixel; NO_LIST for a scene without tile culling, or a cell
-// with more triangles than it can list.
+// with more shapes than it can list.
 uint cell_list(const Header header, uvec2 place) {
     uint side = header.cell_side;
     if (side == 0u) return NO_LIST;

@@ -1,6 +1,6 @@
-// One thread per cell of pixels: the triangles that its camera rays may meet, and its content: EMPTY for the
+// One thread per cell of pixels: the shapes that its camera rays may meet, and its content: EMPTY for the
 // background alone, UNIFORM for one shape that fills it and whose colour changes little from texel to pixel,
-// BUSY otherwise, or DIVIDED if its quarters are to be surveyed. found[cell] = number, content, triangles. Twin: src/oracle/tile_culling.rs.
+// BUSY otherwise, or DIVIDED if its quarters are to be surveyed. found[cell] = number, content, shapes. Twin: src/oracle/tile_culling.rs.
 #ifndef TILE_CULLING_MAIN_GLSL
 #define TILE_CULLING_MAIN_GLSL
 
@@ -98,7 +98,7 @@ void main() {
 #define SURVEY(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                            \
     for (uint i = 0u; i < count; i++) {                                               \
         if (!is_concave && may_meet(header, frame, SQUARE, at(i))) {                  \
-            if (is_listed && listed < LIST_ROOM) found[begin + CELL_HEAD + listed] = i; \
+            if (is_listed && listed < LIST_ROOM) found[begin + CELL_HEAD + listed] = (first) + i; \
             listed += is_listed ? 1u : 0u;                                            \
             seen += is_polygonal ? 1u : 0u;                                                \
             alone = is_polygonal ? (first) + i : alone;                                    \

@@ -1,5 +1,5 @@
-//! Tile culling, before any sample: finds for each cell of pixels the triangles that its camera rays may
-//! meet, and how uniform it is. Input: a scene of many triangles on a device. Output: the lists that camera
+//! Tile culling, before any sample: finds for each cell of pixels the shapes that its camera rays may
+//! meet, and how uniform it is. Input: a scene of many shapes on a device. Output: the lists that camera
 //! rays read, and the number of samples with which each pixel starts.
 
 use std::sync::Arc;

@@ -107,12 +107,12 @@ constants! {
     /// Position of the stream of samples in a batch's part; streams are as independent as different seeds.
     BATCH_STREAM_SHIFT: u32 = 8;
 
-    /// Words of a cell of the picture: `CELL_HEAD`, then single triangles by their index, then those of meshes by the
+    /// Words of a cell of the picture: `CELL_HEAD`, then single shapes by their number, then triangles of meshes by the
     /// texel of their corners, `MAX_LISTED` in all. In a scene with meshes `MAX_LISTED_WITH_MESHES`; behind these the first
     /// word of the cell's room for more, or `NO_LIST`, that of its shades, and `CELL_MASK_WORDS` words of bits for each of `CELL_PARTS` ×
     /// `CELL_PARTS` parts of the cell: one for each triangle of a mesh in the list, set if rays of the part may meet it.
     CELL_WORDS: u32 = 128;
-    /// Number of single triangles, content, number of triangles of meshes, and the depth up to which no other triangle
+    /// Number of single shapes, content, number of triangles of meshes, and the depth up to which no other triangle
     /// of a mesh is met.
     CELL_HEAD: u32 = 4;
     MAX_LISTED: u32 = 124;

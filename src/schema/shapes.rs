@@ -9,9 +9,9 @@ macro_rules! with_shapes {
         $consumer! {
             $(($($argument)+))?
             Plane plane planes [planar polygonal];
-            Sphere sphere spheres [curved];
+            Sphere sphere spheres [curved listed];
             Triangle triangle triangles [planar polygonal curved listed];
-            Disc disc discs [planar];
+            Disc disc discs [planar listed];
             Mesh mesh meshes [curved concave];
         }
     };

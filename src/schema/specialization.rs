@@ -86,8 +86,8 @@ specialization! {
     PixelFilters = "PIXEL_FILTERS", modes(PixelFilterKind), "pixel filter";
     /// Counts exceeded limits.
     Diagnosed = "DIAGNOSED", switch, "counters of what goes beyond a limit";
-    /// Triangles are listed for the cells of the picture.
-    TileCulled = "TILE_CULLED", switch, "triangles by cells of the picture";
+    /// Shapes are listed for the cells of the picture.
+    TileCulled = "TILE_CULLED", switch, "shapes by cells of the picture";
     /// A pixel filter other than the box of one pixel.
     Warped = "WARPED", switch, "samples beyond their pixels";
     PixelFilterAt = "PIXEL_FILTER_AT", parameter(0), "where the table of the pixel filter begins";

@@ -1,4 +1,4 @@
-//! Tile culling of scenes with many triangles: no list lacks a triangle that a ray of its tile
+//! Tile culling of scenes with many shapes: no list lacks a shape that a ray of its tile
 //! hits, so that pictures are bitwise equal, and uniform tiles begin with fewer samples.
 
 use glam::DVec3;
@@ -6,10 +6,10 @@ use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;
 use moire::internal::core::range::Rect;
 use moire::internal::integrators::adaptive::Goal;
-use moire::internal::oracle::tile_culling::triangles_of;
+use moire::internal::oracle::tile_culling::shapes_of;
 use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Session, Tuning};
-use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
+use moire::internal::scene::model::{Algorithm, Disc, Model, Pattern, Projection, Scene, Sphere, Triangle};
 use moire::internal::schema::layout::{
     CELL_BUSY, CELL_EMPTY, CELL_HEAD, CELL_UNIFORM, CELL_WORDS, MAX_LISTED,
 };
@@ -39,6 +39,25 @@ fn soup(count: usize, side: u32) -> Scene {
     scene
 }
 
+/// The soup with spheres and discs of all sizes in it, some around the eye, beside its triangles.
+fn mixed_soup(triangles: usize, round: usize, side: u32) -> Scene {
+    let mut scene = soup(triangles, side);
+    let mut rng = Rng::new(12);
+    let eye = scene.camera.eye;
+    let mut place = |reach: f64| DVec3::from_array([0; 3].map(|_| reach * (2.0 * rng.unit() - 1.0)));
+    let (material, from) = (scene.shapes.spheres[0].material, DVec3::new(0.0, 0.6, 0.0));
+    for i in 0..round {
+        let center = if i % 7 == 0 { eye + place(0.5) } else { from + place(1.5) };
+        let radius = if i % 5 == 0 { 0.3 } else { 0.05 };
+        if i % 2 == 0 {
+            scene.shapes.spheres.push(Sphere { material, ..Sphere::new(center, radius) });
+        } else {
+            scene.shapes.discs.push(Disc { material, ..Disc::new(center, place(1.0), radius) });
+        }
+    }
+    scene
+}
+
 pub fn without(scene: &PackedScene) -> PackedScene {
     let mut scene = scene.clone();
     scene.header.cell_side = 0;
@@ -59,6 +78,24 @@ fn pictures_are_the_same_with_and_without() {
     assert_same(&packed(scene.clone(), None), "parallel rays");
     scene.pixel_filter.radius = 2.25;
     assert_same(&packed(scene, None), "a wide box");
+}
+
+#[test]
+fn pictures_with_spheres_and_discs_are_the_same_with_and_without() {
+    for triangles in [1, 60] {
+        let mut scene = mixed_soup(triangles, 60, 70);
+        assert_same(&packed(scene.clone(), None), "perspective");
+        scene.camera.projection = Projection::Orthographic(2.5);
+        assert_same(&packed(scene.clone(), None), "parallel rays");
+        scene.shapes.triangles.clear();
+        assert_same(&packed(scene.clone(), None), "no triangle");
+        scene.shapes.spheres.clear();
+        assert_same(&packed(scene.clone(), None), "discs alone");
+    }
+    assert_same(&packed(mixed_soup(60, 900, 40), None), "crowded cells");
+    let scene = packed(mixed_soup(20, 40, 24), None);
+    let (kept, _) = render_with(&scene, true, &Tuning::default());
+    assert_same_bits(&render(&scene), &kept, "with everything kept");
 }
 
 #[test]
@@ -98,7 +135,11 @@ pub fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
 /// In f64, with few extra ones: tolerance and margin are small.
 #[test]
 fn lists_hold_what_float64_says() {
-    let scene = packed(soup(60, 70), None);
+    assert_lists(packed(soup(60, 70), None));
+    assert_lists(packed(mixed_soup(40, 40, 70), None));
+}
+
+fn assert_lists(scene: PackedScene) {
     let (_, words) = culls_tiles(&scene);
     let side = scene.header.cell_side;
     let (mut listed, mut exact) = (0, 0);
@@ -106,9 +147,9 @@ fn lists_hold_what_float64_says() {
     for (k, cell) in (0..).zip(words.chunks(CELL_WORDS as usize)) {
         let found = &cell[CELL_HEAD as usize..][..cell[0] as usize];
         assert!(found.is_sorted(), "ties are for the lowest number: {found:?}");
-        let expected = triangles_of(&scene, [k % across * side, k / across * side]);
-        for triangle in &expected {
-            assert!(found.contains(triangle), "cell {k} lacks triangle {triangle}");
+        let expected = shapes_of(&scene, [k % across * side, k / across * side]);
+        for shape in &expected {
+            assert!(found.contains(shape), "cell {k} lacks shape {shape}");
         }
         listed += found.len();
         exact += expected.len();

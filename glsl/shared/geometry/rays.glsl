@@ -45,12 +45,18 @@ Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
         if (is_concave) nearest_in_meshes(ray, candidates, first, hit);                                      \
         else for (uint k = 0u; k < tested; k++) {                                                            \
             uint i = k;                                                                                      \
+            bool is_own = true;                                                                              \
             if (is_listed && TILE_CULLED) {                                                                  \
-                if (list != NO_LIST) i = tile_lists[list + CELL_HEAD + k];                                          \
+                if (list != NO_LIST) {                                                                       \
+                    /* Below zero is beyond all. */                                                          \
+                    i = tile_lists[list + CELL_HEAD + k] - (first);                                          \
+                    is_own = i < count;                                                                      \
+                    i = is_own ? i : 0u;                                                                     \
+                }                                                                                            \
             }                                                                                                \
             real2 local = hit.local;                                                                         \
             real t = distance_to(at(i), at_rest(ray, (first) + i), ORIGIN_IS_EYE, hit.t, false, local); \
-            bool nearer = t > 0.0 && t < hit.t && !(is_planar && (first) + i == skip);                         \
+            bool nearer = is_own && t > 0.0 && t < hit.t && !(is_planar && (first) + i == skip);               \
             hit.t = nearer ? t : hit.t;                                                                      \
             hit.shape = nearer ? (first) + i : hit.shape;                                                    \
             hit.local = nearer ? local : hit.local;                                                          \
