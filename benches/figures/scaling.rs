@@ -11,8 +11,9 @@ use crate::{Bench, Outcome, Run};
 /// No more runs of a point once they have taken this many seconds together.
 const SECONDS_OF_A_POINT: f64 = 4.0;
 const MAX_RUNS: usize = 3;
-/// A figure below this many times its smallest value is mostly its constant part.
+/// A figure that is not this many times its smallest value, and larger by this, is mostly its constant part or noise.
 const GROWN: f64 = 1.25;
+const GROWN_BY: f64 = 5e-4;
 const MESSAGE_CHARACTERS: usize = 60;
 
 /// One kind of work, and how a scene of a given amount of it is made.
@@ -133,7 +134,7 @@ fn exponent(points: &[(f64, f64)]) -> Option<f64> {
     }
     let grown: Vec<(f64, f64)> = last
         .iter()
-        .filter(|point| point.1 > GROWN * constant)
+        .filter(|point| point.1 > (GROWN * constant).max(constant + GROWN_BY))
         .map(|(work, time)| (work.ln(), (time - constant).ln()))
         .collect();
     match grown.len() {

@@ -76,7 +76,8 @@ pub const KINDS: [Kind; 9] = [
     },
 ];
 
-const SHAPES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
+/// Of more in one tile of the picture than it can list, rays test all.
+const SHAPES: [u32; 8] = [1, 4, 16, 64, 256, 1024, 4096, 16384];
 const LIGHTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
 
 /// The beginning of a scene whose camera looks along -z at the square from -1 to 1.
