@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::core::error::Result;
+use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, ReflectedBinding};
 use crate::gpu::{BindGroup, Bound, Buffer, BufferUse, Dispatch, Gpu, Pipeline};
 use crate::pack::{PackedScene, SlotCounts};
@@ -54,8 +54,8 @@ impl Parts {
 }
 
 impl GoalSteps {
-    /// Builds all steps; `None` if a buffer would be larger than the device's largest, or if samples have signs, whose sums
-    /// the host makes.
+    /// Builds all steps; `None` if the device has no room for them or allows less than they need, or if samples have signs,
+    /// whose sums the host makes.
     pub fn new(gpu: &Gpu, scene: &PackedScene) -> Result<Option<GoalSteps>> {
         let size = scene.header.film_size.to_array();
         let pixels = size.map(u64::from).iter().product::<u64>();
@@ -65,31 +65,31 @@ impl GoalSteps {
         let film_bytes = pixels * PIXEL_BYTES;
         let limits = &gpu.info().limits;
         let largest = pixel_bytes.max(batch_bytes).max(totals_bytes).max(film_bytes);
-        if scene.mean_sign.is_some()
-            || largest > limits.max_storage_buffer_range
-            || pixel_bytes + 3 * film_bytes + batch_bytes > limits.heap_bytes / 2
-        {
+        let fits = largest <= limits.max_storage_buffer_range
+            && pixel_bytes + 3 * film_bytes + batch_bytes <= limits.heap_bytes / 2
+            && GOAL_THREADS <= limits.max_workgroup_invocations
+            && shaders::GOAL.bindings.len() <= limits.max_storage_buffers_per_stage as usize;
+        if scene.mean_sign.is_some() || !fits {
             return Ok(None);
         }
+        let buffer = |name, bytes| gpu.buffer(name, bytes, BufferUse::Storage);
+        let buffers = || {
+            let large = [("film", film_bytes), ("goal pixels", pixel_bytes), ("goal batches", batch_bytes)];
+            let [film, pixels_of, batches] = large.map(|(name, bytes)| buffer(name, bytes));
+            let long = Parts::new(gpu, (4 * pixels).clamp(LEAST_PARTS, MOST_PARTS) as u32);
+            Ok::<_, Error>((film?, pixels_of?, batches?, buffer("goal totals", totals_bytes)?, long?))
+        };
+        // Where other programs have taken the memory, the host's own may do.
+        let Ok((film, pixels, batches, totals, long)) = buffers() else { return Ok(None) };
+        // Bins are empty before and after each plan.
+        gpu.write_buffer(&totals, 0, &vec![0; 4 * (GOAL_BINS_AT + 3 * GOAL_BINS) as usize])?;
         let shader = &shaders::GOAL;
         let build = |&kind: &GoalStepKind| {
             let constants = shader.values([(Constant::GoalStepKind, kind as u32)]);
             build_pipeline(gpu, shader, &constants, SlotCounts::default(), size_of::<GoalStep>())
         };
         let pipelines = GoalStepKind::ALL.par_iter().map(build).collect::<Result<Vec<_>>>()?;
-        let buffer = |name, bytes| gpu.buffer(name, bytes, BufferUse::Storage);
-        let totals = buffer("goal totals", totals_bytes)?;
-        // Bins are empty before and after each plan.
-        gpu.write_buffer(&totals, 0, &vec![0; 4 * (GOAL_BINS_AT + 3 * GOAL_BINS) as usize])?;
-        Ok(Some(GoalSteps {
-            pipelines,
-            size,
-            film: buffer("film", film_bytes)?,
-            pixels: buffer("goal pixels", pixel_bytes)?,
-            totals,
-            batches: buffer("goal batches", batch_bytes)?,
-            long: Parts::new(gpu, (4 * pixels).clamp(LEAST_PARTS, MOST_PARTS) as u32)?,
-        }))
+        Ok(Some(GoalSteps { pipelines, size, film, pixels, totals, batches, long }))
     }
 
     /// Returns the number of pixels.
