@@ -9,8 +9,8 @@ use crate::core::range::{Range, Rect};
 use crate::sampling::Backend;
 use crate::schema::layout::TILE;
 
-/// Pixels of a range, rounded to whole rows of tiles: 100 MB of sums where there are any, and few enough ranges that the submissions of each
-/// do not show on a fast device.
+/// Pixels of a range, rounded to whole rows of tiles: 100 MB of sums where there are any, and few enough ranges that the
+/// submissions of each do not show on a fast device.
 const MAX_PIXELS: u32 = 1 << 22;
 
 /// The mean of the same number of samples per pixel.

@@ -8,10 +8,11 @@ use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::gpu::BufferUse;
+use crate::schema::constants::GOAL_PART_SAMPLES;
 use crate::schema::layout::PixelBatch;
 
 /// Samples that one invocation takes of a batch that does not go to the film.
-const PART_SAMPLES: u32 = 64;
+const PART_SAMPLES: u32 = GOAL_PART_SAMPLES;
 /// Number of such batches whose sums one buffer holds.
 const MAX_PARTS: usize = 1 << 20;
 

@@ -15,6 +15,7 @@ use super::{MAX_COUNT, OCTAVES, octave};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::sampling::{AuditPlan, Audited, Backend, Drawn, Pixels, Raises};
+use crate::schema::constants::GOAL_AUDIT_RADIUS;
 use crate::schema::layout::{BATCH_APART, BATCH_BARE, BATCH_STREAM_SHIFT, PixelBatch};
 
 /// The probability that the interval contains the true value.
@@ -30,7 +31,7 @@ const MISSED: f64 = 8.0;
 /// The error of the area of a polygon that beams cut in f32, in pixels.
 const AREA_ERROR: f64 = 1e-6;
 /// Radius, in pixels, of the neighbourhood that is assumed to be like an audited pixel.
-const RADIUS: usize = 4;
+const RADIUS: usize = GOAL_AUDIT_RADIUS as usize;
 
 /// The result of an audit.
 #[derive(Clone, Debug, Default)]

@@ -12,11 +12,12 @@ use rayon::prelude::*;
 
 use super::unseen::{self, Spreads};
 use crate::sampling::HalfSums;
+use crate::schema::constants::GOAL_RADIUS;
 
 /// Pixels that one thread processes at once.
 const PIXELS_PER_TASK: usize = 1 << 15;
 /// Pixels on each side of the window's centre.
-const RADIUS: usize = 3;
+const RADIUS: usize = GOAL_RADIUS as usize;
 
 /// Its memory is kept from pass to pass: the system takes longer to give it than the estimate takes.
 #[derive(Default)]
@@ -173,6 +174,7 @@ impl Exponent {
 
 #[cfg(test)]
 mod tests {
+    use super::super::explore::pcg;
     use super::*;
 
     const WIDTH: usize = 64;
@@ -185,12 +187,6 @@ mod tests {
 
     /// Uniform random numbers of variance 1, at least for the samples that are requested here.
     fn noise(pixel: usize, half: usize, s: u32) -> f32 {
-        // Two rounds of Jarzynski & Olano's pcg.
-        let pcg = |v: u32| {
-            let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-            let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-            (word >> 22) ^ word
-        };
         let bits = pcg(pcg(pixel as u32 * 2 + half as u32).wrapping_add(s)) >> 8;
         (bits as f32 / 16_777_216.0 - 0.5) * 12f32.sqrt()
     }

@@ -5,9 +5,10 @@
 use super::MAX_COUNT;
 use super::audit::raise;
 use super::estimate::Estimate;
+use crate::schema::constants::{GOAL_RADIUS, GOAL_RUN};
 
 /// Length of a run of pixels of which one is visited.
-pub const RUN: usize = 128;
+const RUN: usize = GOAL_RUN as usize;
 /// Factor by which the count of a visited pixel grows if it has fewer than `FEW` samples in each half; a larger count
 /// grows by half of its leading power of two.
 const GROWTH: u32 = 4;
@@ -15,7 +16,7 @@ const FEW: u32 = 64;
 /// A visited pixel has made a discovery if its samples vary this many times more than before.
 const FOUND: f32 = 4.0;
 /// Radius, in pixels, of the neighbourhood that is assumed to be like it.
-const RADIUS: usize = 3;
+const RADIUS: usize = GOAL_RADIUS as usize;
 
 #[derive(Default)]
 pub struct Explorer {
@@ -57,12 +58,13 @@ impl Explorer {
 
 /// Returns a number below `length`, at random by run and round: two rounds of pcg (Jarzynski & Olano 2020).
 fn drawn_of(run: u32, round: u32, length: u32) -> u32 {
-    let pcg = |v: u32| {
-        let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-        let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-        (word >> 22) ^ word
-    };
     pcg(pcg(run).wrapping_add(round)) % length
+}
+
+pub(super) fn pcg(v: u32) -> u32 {
+    let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
 }
 
 fn grown(now: u32) -> u32 {

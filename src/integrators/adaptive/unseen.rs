@@ -10,9 +10,10 @@
 use rayon::prelude::*;
 
 use super::{OCTAVES, octave};
+use crate::schema::constants::{GOAL_MANY_SAMPLES, GOAL_PART_SIDE};
 
 /// Pixels along each side of a part of the picture.
-const SIDE: usize = 32;
+const SIDE: usize = GOAL_PART_SIDE as usize;
 /// A half has seen nothing if its variance is this many times less than that of the mean half.
 const NOTHING_RATIO: f32 = 16.0;
 /// Least number of halves that contradict their partners, and least share of the variance that they account for: a few
@@ -23,7 +24,7 @@ const MIN_SHARE: f64 = 0.1;
 /// an unknown scene; and for pixels with many samples, or scenes known to contain something small and bright.
 const MAX_CORRELATION: [f64; 2] = [0.25, 0.5];
 /// From this number on, samples count as many.
-const MANY_SAMPLES: usize = 64;
+const MANY_SAMPLES: usize = GOAL_MANY_SAMPLES as usize;
 
 /// The variance of one sample by each half of a pixel.
 pub type Spreads = [f32; 2];

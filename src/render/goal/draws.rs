@@ -80,8 +80,8 @@ impl DevicePixels<'_, '_> {
         };
         let draw = [Kind::WeighCells, Kind::SumMasses, Kind::DrawPixels].map(|kind| (kind, push));
         let mut words = vec![0; (GOAL_DRAWS - GOAL_DRAWN + most * GOAL_DRAW_WORDS) as usize];
-        let listed = Listed { batches: &self.parts.list, lengths: &[(parts, GOAL_PART_SAMPLES)] };
-        let fits = parts <= self.parts.room;
+        let listed = Listed { batches: &self.steps.long.list, lengths: &[(parts, GOAL_PART_SAMPLES)] };
+        let fits = parts <= self.steps.long.room;
         if let Some(at_once) = self.backend.sampler()?.0.listed_at_once(&listed).filter(|_| fits) {
             let list = draw.into_iter().chain([Kind::DrawParts, Kind::EndParts].map(|kind| (kind, push)));
             self.ahead.extend(list.map(|(kind, push)| Ahead::Step(kind, push)));

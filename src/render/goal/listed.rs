@@ -28,31 +28,26 @@ impl DevicePixels<'_, '_> {
 
     /// Takes the samples of a list with these numbers of pixels in each class, those of long batches in parts.
     pub(super) fn sample_classes(&mut self, classes: &[u32], progress: &dyn Progress) -> Result<()> {
-        let (short, long) = classes.split_at(GOAL_LONG_CLASS as usize);
-        let lengths: Vec<(u32, u32)> = (0..GOAL_LONG_CLASS)
-            .zip(short)
-            .rev()
-            .map(|(kind, &pixels)| (2 * pixels, most_of_class(kind)))
-            .collect();
-        if short.iter().any(|&pixels| pixels > 0) {
-            let listed = Listed { batches: &self.steps.batches, lengths: &lengths };
+        // Longest first.
+        let mut lengths: Vec<(u32, u32)> =
+            (0..).zip(classes).map(|(kind, &pixels)| (2 * pixels, most_of_class(kind))).collect();
+        lengths.reverse();
+        let (long, short) = lengths.split_at(classes.len() - GOAL_LONG_CLASS as usize);
+        if short.iter().any(|(batches, _)| *batches > 0) {
+            let listed = Listed { batches: &self.steps.batches, lengths: short };
             let (sampler, report) = self.backend.sampler()?;
             match sampler.listed_at_once(&listed) {
                 Some(at_once) => self.ahead.push(Ahead::Samples(at_once)),
                 None => sampler.sample_listed(&listed, report, progress)?,
             }
         }
-        let long: Vec<(u32, u32)> = (GOAL_LONG_CLASS..)
-            .zip(long)
-            .filter(|(_, pixels)| **pixels > 0)
-            .map(|(kind, &pixels)| (2 * pixels, most_of_class(kind)))
-            .collect();
+        let long: Vec<(u32, u32)> = long.iter().copied().filter(|(batches, _)| *batches > 0).collect();
         self.sample_long(&long, progress)
     }
 
     /// Takes long batches, given by their numbers and most samples, in as few rounds as there is room for their parts.
     fn sample_long(&mut self, long: &[(u32, u32)], progress: &dyn Progress) -> Result<()> {
-        let room = u64::from(self.parts.room);
+        let room = u64::from(self.steps.long.room);
         let most = long.iter().map(|length| length.1).max().unwrap_or(0);
         let few = parts_of(long, 0, most, GOAL_PART_SAMPLES) <= room;
         let part_samples = if few { GOAL_PART_SAMPLES } else { MAX_SAMPLES_AT_ONCE };
@@ -64,7 +59,7 @@ impl DevicePixels<'_, '_> {
             }
             let until = from + samples;
             let parts = parts_of(long, from, until, part_samples);
-            let parts = u32::try_from(parts).ok().filter(|parts| *parts <= self.parts.room);
+            let parts = u32::try_from(parts).ok().filter(|parts| *parts <= self.steps.long.room);
             let parts = parts.ok_or_else(|| Error::new("a pass has too many parts of batches"))?;
             let push = GoalStep { part_samples, from, until, count: parts, ..self.push };
             self.sample_parts(&push, progress)?;
@@ -77,19 +72,19 @@ impl DevicePixels<'_, '_> {
     fn sample_parts(&mut self, push: &GoalStep, progress: &dyn Progress) -> Result<()> {
         // One submission takes no more than one round.
         if self.ahead.iter().any(|work| matches!(work, Ahead::Parts(_))) {
-            self.run::<1>(&[], GOAL_PART_COUNT)?;
+            self.submit(&[])?;
         }
         let bound = [(push.count, push.part_samples)];
-        let bound = Listed { batches: &self.parts.list, lengths: &bound };
+        let bound = Listed { batches: &self.steps.long.list, lengths: &bound };
         if let Some(at_once) = self.backend.sampler()?.0.listed_at_once(&bound) {
             self.ahead.extend([Kind::ListParts, Kind::EndParts].map(|kind| Ahead::Step(kind, *push)));
             self.ahead.push(Ahead::Parts(at_once));
         } else {
             let [count] = self.run(&[(Kind::ListParts, *push)], GOAL_PART_COUNT)?;
             let lengths = [(count, push.part_samples)];
-            let listed = Listed { batches: &self.parts.list, lengths: &lengths };
+            let listed = Listed { batches: &self.steps.long.list, lengths: &lengths };
             let (sampler, report) = self.backend.sampler()?;
-            sampler.sample_listed_apart(&listed, &self.parts.sums, report, progress)?;
+            sampler.sample_listed_apart(&listed, &self.steps.long.sums, report, progress)?;
         }
         self.ahead.push(Ahead::Step(Kind::AddParts, *push));
         Ok(())

@@ -7,7 +7,6 @@ mod listed;
 mod steps;
 
 pub use steps::GoalSteps;
-use steps::Parts;
 
 use super::Report;
 use super::batch_lists::AtOnce;
@@ -54,14 +53,14 @@ pub struct DevicePixels<'b, 'p> {
     gpu: &'p Gpu,
     steps: &'p GoalSteps,
     resolved: Option<Buffer>,
-    parts: &'p Parts,
     group: BindGroup,
+    /// The film with the list of batches, and the sums of parts with theirs.
     sample_groups: [BindGroup; 2],
     ahead: Vec<Ahead>,
     /// What all steps of a pass have in common.
     push: GoalStep,
     next: Next,
-    /// True if samples were taken since counts were last.
+    /// True if samples were taken since the counts were last updated.
     took: bool,
     /// Seconds of the last samples.
     sampling: f64,
@@ -73,7 +72,6 @@ pub struct DevicePixels<'b, 'p> {
 impl<'b, 'p> DevicePixels<'b, 'p> {
     pub fn new(backend: &'b mut dyn GoalBackend<'p>, steps: &'p GoalSteps) -> Result<DevicePixels<'b, 'p>> {
         let gpu = backend.gpu();
-        let parts = &steps.long;
         let group = steps.bind(gpu, None)?;
         let sample_groups = sample_groups(backend, steps)?;
         let [width, height] = steps.size;
@@ -85,7 +83,6 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
             gpu,
             steps,
             resolved: None,
-            parts,
             group,
             sample_groups,
             ahead: Vec::new(),
@@ -96,6 +93,11 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
             seen,
             draw_sums,
         })
+    }
+
+    /// Submits what is to be done ahead, and steps of which nothing is read.
+    fn submit(&mut self, kinds: &[(Kind, GoalStep)]) -> Result<()> {
+        self.run::<1>(kinds, 0).map(|_| ())
     }
 
     /// Runs steps, and reads words of the totals from `first` on.
@@ -147,7 +149,7 @@ impl<'b, 'p> DevicePixels<'b, 'p> {
         Ok(())
     }
 
-    /// Returns plan and classes from the words behind `GOAL_MULTIPLIER`.
+    /// Returns the pixels of each class from the words of a plan.
     fn classes(words: &[u32]) -> Vec<u32> {
         let first = (GOAL_CLASSES_AT - GOAL_MULTIPLIER) as usize;
         words[first..first + GOAL_CLASSES as usize].to_vec()
@@ -174,7 +176,7 @@ impl Pixels for DevicePixels<'_, '_> {
         self.ahead.extend(plan.map(|(kind, push)| Ahead::Step(kind, push)));
         self.next = Next::All { now: 0, next: most };
         if self.backend.first_samples_differ() {
-            self.run::<1>(&[], GOAL_MULTIPLIER)?;
+            self.submit(&[])?;
             let counts = self.backend.first_samples(most, self.steps.count() as usize)?;
             let offset = 4 * u64::from(GOAL_NEXT) * u64::from(self.steps.count());
             self.gpu.write_buffer(&self.steps.pixels, offset, bytemuck::cast_slice(&counts))?;
@@ -295,7 +297,7 @@ impl Pixels for DevicePixels<'_, '_> {
             self.gpu.write_buffer(&self.steps.totals, offset, bytemuck::cast_slice(floors))?;
             steps.push((Kind::RaiseToFloors, self.push));
         }
-        if steps.is_empty() { Ok(()) } else { self.run::<1>(&steps, GOAL_MULTIPLIER).map(|_| ()) }
+        if steps.is_empty() { Ok(()) } else { self.submit(&steps) }
     }
 
     fn shares(&mut self, pilot: &PilotRun, exponent: f64) -> Result<[f64; 2]> {
@@ -313,7 +315,7 @@ impl Pixels for DevicePixels<'_, '_> {
     }
 
     fn write_to(&mut self, film: &mut Film) -> Result<()> {
-        self.run::<1>(&[(Kind::FindMeans, self.push)], GOAL_MULTIPLIER)?;
+        self.submit(&[(Kind::FindMeans, self.push)])?;
         let offset = 4 * u64::from(GOAL_PAIRS) * u64::from(self.steps.count());
         self.gpu.read_buffer(&self.steps.pixels, offset, bytemuck::cast_slice_mut(&mut film.pixels))
     }
