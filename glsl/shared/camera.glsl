@@ -13,17 +13,26 @@ struct Ray {
     float time;
 };
 
-// Returns the pinhole camera's ray; `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
-Ray camera_ray(const Header header, uvec2 pixel, vec2 inside) {
-    // Scaling by 2^-24 is exact wherever it is done: here once per pixel, not per sample.
-    real3 fine_x = header.step_x * (1.0 / 16777216.0);
-    real3 fine_y = header.step_y * (1.0 / 16777216.0);
+// What all rays of a pixel have in common: its corner, and the steps of 2^-24 of a pixel from there. Drivers do not move it
+// out of the loop over the samples by themselves (lavapipe, Mesa 22.3.6).
+struct PixelCorner {
+    real3 point;
+    real3 fine_x;
+    real3 fine_y;
+};
+
+PixelCorner pixel_corner(const Header header, uvec2 pixel) {
     vec2 corner = vec2(pixel) - 0.5 * vec2(header.image_size);
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
     real3 start = orthographic ? real3(0.0) : header.forward;
-    // The sum up to the pixel's corner is the same for all its samples.
-    real3 base = (start + corner.x * header.step_x) + corner.y * header.step_y;
-    real3 point = (base + inside.x * fine_x) + inside.y * fine_y;
+    real3 point = (start + corner.x * header.step_x) + corner.y * header.step_y;
+    return PixelCorner(point, header.step_x * (1.0 / 16777216.0), header.step_y * (1.0 / 16777216.0));
+}
+
+// Returns the pinhole camera's ray; `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
+Ray camera_ray(const Header header, const PixelCorner corner, vec2 inside) {
+    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
+    real3 point = (corner.point + inside.x * corner.fine_x) + inside.y * corner.fine_y;
     return orthographic ? Ray(point, header.forward, 0.0) : Ray(real3(0.0), point, 0.0);
 }
 

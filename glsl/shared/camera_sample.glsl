@@ -16,8 +16,8 @@ Place sample_place(const Header header, const Points points, uint s) {
 }
 
 // `dimensions`: of the sample, where there are more than its place. `sign`: of its weight.
-Path camera_sample(const Header header, uvec2 pixel, uvec2 key, const Points points, uint s, const SampleDimensions dimensions,
-                   const Candidates candidates, out float sign) {
+Path camera_sample(const Header header, uvec2 pixel, PixelCorner corner, uvec2 key, const Points points, uint s,
+                   const SampleDimensions dimensions, const Candidates candidates, out float sign) {
     uvec2 position;
     if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
     else position = dimensions.place;
@@ -25,11 +25,14 @@ Path camera_sample(const Header header, uvec2 pixel, uvec2 key, const Points poi
     float time = 0.0;
     if (TIMED) time = header.shutter_opens + header.shutter_time * unit_square(dimensions.time).x;
     if (MOVING_CAMERA) {
-        if (header.camera_moves) camera = camera_at(header, time);
+        if (header.camera_moves) {
+            camera = camera_at(header, time);
+            corner = pixel_corner(camera, pixel);
+        }
     }
     Place place = filtered_place(header, position);
     sign = place.sign;
-    Ray ray = camera_ray(camera, pixel, place.inside);
+    Ray ray = camera_ray(camera, corner, place.inside);
     if (LENS) {
         if (header.lens_radius > 0.0) ray = through_lens(camera, ray, unit_square(dimensions.lens));
     }

@@ -19,7 +19,7 @@ void main() {
     uvec2 place = film_pixel();
     if (!in_film(header, place)) return;
     uvec2 pixel = picture_pixel(header, place);
-    Ray ray = camera_ray(header, pixel, MIDDLE);
+    Ray ray = camera_ray(header, pixel_corner(header, pixel), MIDDLE);
     uint at = film_index(header, place);
     film[at] = trace_cone(header, ray, camera_differential(header, ray));
     if (loops_were_ended()) leave_unfinished(at);

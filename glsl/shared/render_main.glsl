@@ -81,6 +81,7 @@ void main() {
     uint stream = task.part >> BATCH_STREAM_SHIFT;
     uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
+    PixelCorner corner = pixel_corner(header, pixel);
     uint at = film_index(header, task.place);
     uint end = task.end;
     bool sees_nothing = false; // but the background
@@ -138,7 +139,7 @@ void main() {
         if (GROUPED) {
             until = min(s + GROUP, stop);
             group_sample = 0u;
-            for (uint k = 0u; k < GROUP; k++) group_ways[k] = camera_ray(header, pixel, sample_place(header, points, s + k).inside).direction;
+            for (uint k = 0u; k < GROUP; k++) group_ways[k] = camera_ray(header, corner, sample_place(header, points, s + k).inside).direction;
             find_for_group(candidates);
         }
         while (s < until) {
@@ -146,7 +147,7 @@ void main() {
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, starts ? 0u : path.depth, starts);
             if (starts) {
-                path = camera_sample(header, pixel, key, points, s, dimensions, candidates, sign);
+                path = camera_sample(header, pixel, corner, key, points, s, dimensions, candidates, sign);
                 signs += sign;
             }
             vec3 more = advance(header, points, dimensions, path);

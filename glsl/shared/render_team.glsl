@@ -89,7 +89,7 @@ void render_as_team(const Header header) {
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, 0u, true);
             float sign;
-            Path path = camera_sample(header, pixel, key, points, s, dimensions, candidates, sign);
+            Path path = camera_sample(header, pixel, pixel_corner(header, pixel), key, points, s, dimensions, candidates, sign);
             if (TEAMED) {
                 team_nearest = FAR;
                 team_found = NO_SHAPE;

@@ -69,6 +69,23 @@ Level level_at(const Texture image, int index) {
 #endif
 
 #if HAS_TEXELS
+uvec4 codes_of(uint word) { return uvec4(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u); }
+
+// k / 255 and k / 65535, rounded as the quotients are, of whole numbers k up to 255 and 65535: the first product is exact.
+float unorm8(float k) { return k * (1.0 / 256.0) + k * (1.0 / 65280.0); }
+
+vec4 unorm8(vec4 k) { return k * (1.0 / 256.0) + k * (1.0 / 65280.0); }
+
+float unorm16(float k) { return k * (1.0 / 65536.0) + k * (1.0 / 4294901760.0); }
+
+vec4 unorm16(vec4 k) { return k * (1.0 / 65536.0) + k * (1.0 / 4294901760.0); }
+
+vec4 rgba8(uint word, bool srgb) {
+    uvec4 codes = codes_of(word);
+    if (srgb) return vec4(decode_srgb8(codes.x), decode_srgb8(codes.y), decode_srgb8(codes.z), unorm8(float(codes.w)));
+    return unorm8(vec4(codes));
+}
+
 // Returns one texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB is decoded.
 vec4 fetch_pooled(const Texture image, const Level level, ivec3 at) {
     uint format = image.format;
@@ -76,37 +93,35 @@ vec4 fetch_pooled(const Texture image, const Level level, ivec3 at) {
     uint word = level.word;
     bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space);
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA8, format)) {
-        uint packed = texel_word(word + texel);
-        uvec4 code = uvec4(packed & 255u, (packed >> 8u) & 255u, (packed >> 16u) & 255u, packed >> 24u);
-        if (srgb) return vec4(decode_srgb8(code.x), decode_srgb8(code.y), decode_srgb8(code.z), float(code.w) / 255.0);
-        return vec4(code) / 255.0;
+        return rgba8(texel_word(word + texel), srgb);
     }
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY8, format)) {
-        uint code = (texel_word(word + (texel >> 2u)) >> ((texel & 3u) * 8u)) & 255u;
-        return vec4(vec3(srgb ? decode_srgb8(code) : float(code) / 255.0), 1.0);
+        uint four = TEXEL_QUADS ? texel_word(4u * word + texel) : texel_word(word + (texel >> 2u)) >> ((texel & 3u) * 8u);
+        uint code = four & 255u;
+        return vec4(vec3(srgb ? decode_srgb8(code) : unorm8(float(code))), 1.0);
     }
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_ALPHA8, format)) {
         uint pair = texel_word(word + (texel >> 1u)) >> ((texel & 1u) * 16u);
         uint code = pair & 255u;
-        return vec4(vec3(srgb ? decode_srgb8(code) : float(code) / 255.0), float((pair >> 8u) & 255u) / 255.0);
+        return vec4(vec3(srgb ? decode_srgb8(code) : unorm8(float(code))), unorm8(float((pair >> 8u) & 255u)));
     }
     vec4 value = vec4(0.0);
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY16, format)) {
         uint code = (texel_word(word + (texel >> 1u)) >> ((texel & 1u) * 16u)) & 65535u;
         if (DEEP_SRGB && srgb) return vec4(vec3(decode_srgb16(code)), 1.0);
-        value = vec4(vec3(float(code) / 65535.0), 1.0);
+        value = vec4(vec3(unorm16(float(code))), 1.0);
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_ALPHA16, format)) {
         uint pair = texel_word(word + texel);
         if (DEEP_SRGB && srgb) {
-            return vec4(vec3(decode_srgb16(pair & 65535u)), float(pair >> 16u) / 65535.0);
+            return vec4(vec3(decode_srgb16(pair & 65535u)), unorm16(float(pair >> 16u)));
         }
-        value = vec4(vec3(float(pair & 65535u) / 65535.0), float(pair >> 16u) / 65535.0);
+        value = vec4(vec3(unorm16(float(pair & 65535u))), unorm16(float(pair >> 16u)));
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA16, format)) {
         uint first = word + texel * 2u;
         uvec2 pairs = uvec2(texel_word(first), texel_word(first + 1u));
         uvec4 codes = uvec4(pairs.x & 65535u, pairs.x >> 16u, pairs.y & 65535u, pairs.y >> 16u);
-        if (DEEP_SRGB && srgb) return vec4(decode_srgb16(codes.xyz), float(codes.w) / 65535.0);
-        value = vec4(codes) / 65535.0;
+        if (DEEP_SRGB && srgb) return vec4(decode_srgb16(codes.xyz), unorm16(float(codes.w)));
+        value = unorm16(vec4(codes));
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_FLOAT, format)) {
         return vec4(vec3(uintBitsToFloat(texel_word(word + texel))), 1.0);
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_ALPHA_FLOAT, format)) {
@@ -191,11 +206,8 @@ vec4 read_sampled(const Texture image, const Sampler how, uint slot, const Coord
     return read_flat(how, slot, c.at.xy + shift.xy, c, level);
 }
 
-vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) {
-#if HAS_TEXELS
-    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return fetch_pooled(image, level, at);
-#endif
-    vec4 value = read_image(slot, at.xy, level.index);
+// Returns linear RGBA of what an image holds.
+vec4 decoded(const Texture image, vec4 value) {
     // The view replicates grey; if all textures are grey, two channels need no arithmetic.
     if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) value = vec4(value.xxx, 1.0);
     if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space)) {
@@ -208,8 +220,71 @@ vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) {
     }
     return value;
 }
+
+vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) {
+#if HAS_TEXELS
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return fetch_pooled(image, level, at);
+#endif
+    return decoded(image, read_image(slot, at.xy, level.index));
+}
 #elif SOURCE == SOURCE_BUFFER
 vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) { return fetch_pooled(image, level, at); }
+#endif
+
+#if SOURCE != SOURCE_NONE
+// Four texels: at a position, to its right, below it, and below that.
+struct Quad {
+    vec4 at;
+    vec4 right;
+    vec4 below;
+    vec4 across;
+};
+#endif
+
+#if HAS_IMAGES
+#define GATHERED(channel)                                                                        \
+    vec4 gathered_##channel(uint slot, vec2 corner) {                                            \
+        SLOT_SWITCH(SLOTS, GATHER_##channel)                                                     \
+    }
+#define GATHER_0(i) textureGather(SLOT(i), corner, 0)
+#define GATHER_1(i) textureGather(SLOT(i), corner, 1)
+#define GATHER_2(i) textureGather(SLOT(i), corner, 2)
+#define GATHER_3(i) textureGather(SLOT(i), corner, 3)
+GATHERED(0)
+GATHERED(1)
+GATHERED(2)
+GATHERED(3)
+
+// Returns four texels of level 0, of which the first row and column follow the last ones.
+Quad texel_quad(const Texture image, uint slot, ivec2 at) {
+    // The common corner of the four, which the device's arithmetic does not move by half a texel.
+    vec2 corner = vec2(at + 1) * (1.0 / vec2(image.size.xy));
+    vec4 r = gathered_0(slot, corner);
+    vec4 g = r;
+    vec4 b = r;
+    vec4 a = vec4(1.0);
+    if (TEXEL_FORMATS != (1u << TEXEL_FORMAT_GREY8)) {
+        g = gathered_1(slot, corner);
+        b = gathered_2(slot, corner);
+        a = gathered_3(slot, corner);
+    }
+    return Quad(decoded(image, vec4(r.w, g.w, b.w, a.w)), decoded(image, vec4(r.z, g.z, b.z, a.z)),
+                decoded(image, vec4(r.x, g.x, b.x, a.x)), decoded(image, vec4(r.y, g.y, b.y, a.y)));
+}
+#elif HAS_TEXELS
+// Each grey texel of 8 bits has a word with its neighbours; each of four channels has four words.
+Quad texel_quad(const Texture image, uint slot, ivec2 at) {
+    bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space);
+    uint texel = uint(at.y * int(image.size.x) + at.x);
+    if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) {
+        uvec4 codes = codes_of(texel_word(4u * image.first_word + texel));
+        vec4 light = unorm8(vec4(codes));
+        if (srgb) light = vec4(decode_srgb8(codes.x), decode_srgb8(codes.y), decode_srgb8(codes.z), decode_srgb8(codes.w));
+        return Quad(vec4(light.xxx, 1.0), vec4(light.yyy, 1.0), vec4(light.zzz, 1.0), vec4(light.www, 1.0));
+    }
+    uvec4 four = texelFetch(texels[0], int(image.first_word + texel));
+    return Quad(rgba8(four.x, srgb), rgba8(four.y, srgb), rgba8(four.z, srgb), rgba8(four.w, srgb));
+}
 #endif
 
 #if SOURCE != SOURCE_NONE

@@ -21,6 +21,7 @@ mod sample_dimensions;
 mod sections;
 mod stored_levels;
 mod texel_format;
+mod texel_quads;
 mod texture_lines;
 mod texture_readers;
 mod textures;
@@ -117,6 +118,8 @@ pub struct SlotCounts {
     pub texel_blocks: u32,
     /// Words of each but the last, where there are several.
     pub block_log2: u32,
+    /// A bilinear look-up reads its four texels at once.
+    pub texel_quads: bool,
     /// The buffer of meshes is bound.
     pub meshes: bool,
 }

@@ -77,9 +77,22 @@ impl Resources {
             TexelSource::Solids => Some(packed.solid_bytes),
             TexelSource::None | TexelSource::Image => None,
         };
-        let upload = |bytes| TexelBuffer::upload(gpu, packed, bytes, most_words, &mut generator);
-        let texels = pooled.map(upload).transpose()?;
         let mut slots = packed.slot_counts();
+        slots.texel_quads = !features.everything
+            && packed.allows_texel_quads()
+            && match features.source {
+                TexelSource::Buffer => packed.texel_quad_words().is_some_and(|n| n as u64 <= most_words),
+                TexelSource::Image => true,
+                TexelSource::None | TexelSource::Solids => false,
+            };
+        let upload = |bytes| {
+            if slots.texel_quads {
+                TexelBuffer::upload_quads(gpu, packed)
+            } else {
+                TexelBuffer::upload(gpu, packed, bytes, most_words, &mut generator)
+            }
+        };
+        let texels = pooled.map(upload).transpose()?;
         if let Some(texel_buffer) = &texels {
             (slots.texel_blocks, slots.block_log2) =
                 (texel_buffer.blocks.len() as u32, texel_buffer.block_log2);

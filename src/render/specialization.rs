@@ -27,6 +27,7 @@ pub fn constants(
         (Constant::CubeSlots, slots.cubes.max(1)),
         (Constant::TexelBlocks, slots.texel_blocks.max(1)),
         (Constant::BlockLog2, slots.block_log2),
+        (Constant::TexelQuads, u32::from(slots.texel_quads)),
     ];
     shader.values(features.values.iter().copied().chain(places).chain(parameters))
 }

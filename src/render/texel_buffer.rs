@@ -52,6 +52,14 @@ impl TexelBuffer {
         Ok(texel_buffer)
     }
 
+    /// Uploads the texels with their neighbours, to one buffer.
+    pub fn upload_quads(gpu: &Gpu, packed: &PackedScene) -> Result<TexelBuffer> {
+        let quads = packed.texel_quads();
+        let usage = if quads.wide { BufferUse::TexelUint4 } else { BufferUse::TexelUint };
+        let buffer = gpu.upload_buffer("texels with neighbours", usage, bytemuck::cast_slice(&quads.words))?;
+        Ok(TexelBuffer { blocks: vec![buffer], block_log2: 0 })
+    }
+
     fn new(gpu: &Gpu, packed: &PackedScene, bytes: u64, most_words: u64) -> Result<TexelBuffer> {
         let Some((count, block_log2)) = blocks(bytes / 4, most_words) else {
             return Err(Error::with_help(

@@ -98,6 +98,8 @@ specialization! {
     /// Buffers of texels, of 2^`BLOCK_LOG2` words except for the last.
     TexelBlocks = "TEXEL_BLOCKS", parameter(16), "texel buffers";
     BlockLog2 = "BLOCK_LOG2", parameter(16), "length of texel buffers";
+    /// A bilinear look-up reads its four texels at once.
+    TexelQuads = "TEXEL_QUADS", flag, "four texels at once";
     /// 1 if tables are read from the uniform buffer: devices differ in the cost of reads at scattered places.
     TablesInHead = "TABLES_IN_HEAD", flag, "tables in uniforms";
     /// A bit mask of `Quantity`: radiance alone by default.

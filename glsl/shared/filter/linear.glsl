@@ -20,6 +20,23 @@ vec4 linear_flat(const Texture image, const Sampler how, uint slot, const Level 
         sum = add_weighted(a.x * b.y, flat_texel(image, how, slot, level, first + ivec2(0, 1)), sum);
         return add_weighted(b.x * b.y, flat_texel(image, how, slot, level, first + ivec2(1, 1)), sum);
     }
+    if (TEXEL_QUADS) {
+        ivec2 last = level.size.xy - 1;
+        ivec2 at = ivec2(addressed_texel(ADDRESSES_U, how.address_u, first.x, level.size.x),
+                         addressed_texel(ADDRESSES_V, how.address_v, first.y, level.size.y));
+        Quad quad = texel_quad(image, slot, at);
+        // Beyond an edge that is clamped the texel is its own neighbour.
+        if (MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, how.address_u)) {
+            if (first.x < 0 || first.x >= last.x) quad = Quad(quad.at, quad.at, quad.below, quad.below);
+        }
+        if (MODE_IS(ADDRESSES_V, ADDRESS_CLAMP_TO_EDGE, how.address_v)) {
+            if (first.y < 0 || first.y >= last.y) quad = Quad(quad.at, quad.right, quad.at, quad.right);
+        }
+        vec4 sum = weighted(a.x * a.y, quad.at);
+        sum = add_weighted(b.x * a.y, quad.right, sum);
+        sum = add_weighted(a.x * b.y, quad.below, sum);
+        return add_weighted(b.x * b.y, quad.across, sum);
+    }
     ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.address_u, first.x, level.size.x),
                     addressed_texel(ADDRESSES_U, how.address_u, first.x + 1, level.size.x));
     ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.address_v, first.y, level.size.y),

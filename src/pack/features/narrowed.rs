@@ -82,6 +82,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::CubeSlots
         | C::TexelBlocks
         | C::BlockLog2
+        | C::TexelQuads
         | C::TablesInHead
         | C::Quantities
         | C::MeshSearch
