@@ -18,9 +18,7 @@ Place sample_place(const Header header, const Points points, uint s) {
 // `dimensions`: of the sample, where there are more than its place. `sign`: of its weight.
 Path camera_sample(const Header header, uvec2 pixel, PixelCorner corner, uvec2 key, const Points points, uint s,
                    const SampleDimensions dimensions, const Candidates candidates, out float sign) {
-    uvec2 position;
-    if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
-    else position = dimensions.place;
+    uvec2 position = dimensions.place;
     Header camera = header;
     float time = 0.0;
     if (TIMED) time = header.shutter_opens + header.shutter_time * unit_square(dimensions.time).x;

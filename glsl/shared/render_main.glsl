@@ -127,6 +127,8 @@ void main() {
         if (first_sample() > 0u) begun = film[at].xyz;
     }
     vec3 part;
+    uvec2 position = uvec2(0u);
+    if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
     while (true) {
         // Groups divide a block. In these places a condition in place of the choices would have lavapipe (Mesa 22.3.6) add the
         // parts of lanes that are in the middle of a block, if others beside them have fewer samples.
@@ -146,6 +148,11 @@ void main() {
             bool starts = !BOUNCES || !path.is_alive;
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, starts ? 0u : path.depth, starts);
+            else {
+                dimensions.place = position;
+                uvec2 next = sample_point(points, s + 1u, false);
+                position = starts ? next : position;
+            }
             if (starts) {
                 path = camera_sample(header, pixel, corner, key, points, s, dimensions, candidates, sign);
                 signs += sign;

@@ -16,9 +16,12 @@ pub struct TexelQuads {
     pub wide: bool,
 }
 
+/// Largest number of words that pays.
+const MOST_WORDS: usize = 1 << 20;
+
 impl PackedScene {
     /// Returns true if bilinear look-ups may read their four texels at once: of flat textures with one level, which are
-    /// tiled or clamped.
+    /// tiled or clamped, by no other filter.
     pub fn allows_texel_quads(&self) -> bool {
         let flat = |t: &Texture| {
             t.kind == TextureKind::Procedural || t.kind == TextureKind::Flat && t.levels == 1
@@ -29,19 +32,19 @@ impl PackedScene {
             && !self.summed_tables
             && self.records.textures.iter().all(flat)
             && samplers.iter().all(|s| plain(s.address_u) && plain(s.address_v) && !s.crosses_poles)
-            && samplers.iter().any(|s| s.mag_filter == Filter::Linear)
+            && samplers.iter().all(|s| s.mag_filter == Filter::Linear)
     }
 
     /// Returns the number of words of texels with their neighbours; `None` if they are not all grey or all of four channels,
-    /// with 8 bits. A picture of fewer samples than texels would take longer to prepare than it gains.
+    /// with 8 bits. A picture of fewer samples than texels would take longer to prepare than it gains, and more words than
+    /// a core's cache holds take longer to read than four texels.
     pub fn texel_quad_words(&self) -> Option<usize> {
-        let words = match self.quad_format()? {
-            TexelFormat::Grey8 | TexelFormat::Rgba8 => self.texels.len(),
-            _ => return None,
-        };
+        let words = self.texels.len();
+        let is_stored = matches!(self.quad_format()?, TexelFormat::Grey8 | TexelFormat::Rgba8);
         let pixels = u64::from(self.header.film_size.x) * u64::from(self.header.film_size.y);
         let samples = if self.schedule == Schedule::Batches { u64::MAX } else { u64::from(self.samples) };
-        (samples.saturating_mul(pixels) >= self.texels.len() as u64).then_some(words)
+        let pays = words <= MOST_WORDS && samples.saturating_mul(pixels) >= words as u64;
+        (is_stored && pays).then_some(words)
     }
 
     /// Returns the format of all textures, if they have one in common.
