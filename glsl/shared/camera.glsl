@@ -32,7 +32,8 @@ PixelCorner pixel_corner(const Header header, uvec2 pixel) {
 // Returns the pinhole camera's ray; `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
 Ray camera_ray(const Header header, const PixelCorner corner, vec2 inside) {
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
-    real3 point = (corner.point + inside.x * corner.fine_x) + inside.y * corner.fine_y;
+    real3 along = fma(real3(inside.x), corner.fine_x, corner.point);
+    real3 point = fma(real3(inside.y), corner.fine_y, along);
     return orthographic ? Ray(point, header.forward, 0.0) : Ray(real3(0.0), point, 0.0);
 }
 

@@ -53,6 +53,7 @@ real2 turned_uv(const UvProjection map, real2 uv) {
 
 // Returns matrix · uv + offset.
 real2 placed(const UvProjection map, real2 uv) {
+    if (!ROTATED_UV) return fma(real2(map.m00, map.m11), uv, map.offset);
     real2 mapped = turned_uv(map, uv) + map.offset;
     return mapped;
 }

@@ -18,14 +18,14 @@ const float REAL_PI = PI;
 // Returns x y z summed from the left, so that all devices round alike.
 #define DOT3(scalar, vector)                                                                     \
     scalar dot3(vector a, vector b) {                                                            \
-        scalar sum = (a.x * b.x + a.y * b.y) + a.z * b.z;                                        \
+        scalar sum = fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));                                    \
         return sum;                                                                              \
     }
 
 // Returns row.xyz · p + row.w.
 #define AFFINE(scalar, row_vector, vector)                                                       \
     scalar affine(row_vector row, vector p) {                                                    \
-        scalar sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;                        \
+        scalar sum = fma(row.z, p.z, fma(row.y, p.y, row.x * p.x)) + row.w;                      \
         return sum;                                                                              \
     }
 

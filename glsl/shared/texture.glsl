@@ -255,10 +255,15 @@ GATHERED(1)
 GATHERED(2)
 GATHERED(3)
 
-// Returns four texels of level 0, of which the first row and column follow the last ones.
-Quad texel_quad(const Texture image, uint slot, ivec2 at) {
-    // The common corner of the four, which the device's arithmetic does not move by half a texel.
-    vec2 corner = vec2(at + 1) * (1.0 / vec2(image.size.xy));
+// Returns four texels of level 0 from `first` on, which is `low` as integers. The image repeats, whatever the address mode.
+Quad texel_quad(const Texture image, const Sampler how, uint slot, vec2 low, ivec2 first) {
+    vec2 size = vec2(image.size.xy);
+    vec2 at = low;
+    if (MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, how.address_u)) at.x = clamp(low.x, 0.0, size.x - 1.0);
+    if (MODE_IS(ADDRESSES_V, ADDRESS_CLAMP_TO_EDGE, how.address_v)) at.y = clamp(low.y, 0.0, size.y - 1.0);
+    // Of the corner that the four have in common: the device's arithmetic does not move it by half a texel.
+    vec2 texel = 1.0 / size;
+    vec2 corner = fma(at, texel, texel);
     vec4 r = gathered_0(slot, corner);
     vec4 g = r;
     vec4 b = r;
@@ -273,7 +278,9 @@ Quad texel_quad(const Texture image, uint slot, ivec2 at) {
 }
 #elif HAS_TEXELS
 // Each grey texel of 8 bits has a word with its neighbours; each of four channels has four words.
-Quad texel_quad(const Texture image, uint slot, ivec2 at) {
+Quad texel_quad(const Texture image, const Sampler how, uint slot, vec2 low, ivec2 first) {
+    ivec2 at = ivec2(addressed_texel(ADDRESSES_U, how.address_u, first.x, int(image.size.x)),
+                     addressed_texel(ADDRESSES_V, how.address_v, first.y, int(image.size.y)));
     bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space);
     uint texel = uint(at.y * int(image.size.x) + at.x);
     if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) {

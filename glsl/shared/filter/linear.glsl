@@ -22,9 +22,7 @@ vec4 linear_flat(const Texture image, const Sampler how, uint slot, const Level 
     }
     if (TEXEL_QUADS) {
         ivec2 last = level.size.xy - 1;
-        ivec2 at = ivec2(addressed_texel(ADDRESSES_U, how.address_u, first.x, level.size.x),
-                         addressed_texel(ADDRESSES_V, how.address_v, first.y, level.size.y));
-        Quad quad = texel_quad(image, slot, at);
+        Quad quad = texel_quad(image, how, slot, low, first);
         // Beyond an edge that is clamped the texel is its own neighbour.
         if (MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, how.address_u)) {
             if (first.x < 0 || first.x >= last.x) quad = Quad(quad.at, quad.at, quad.below, quad.below);
