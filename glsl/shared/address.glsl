@@ -12,10 +12,10 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
     float s;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
         s = u - roundEven(u);
-        s = abs(s) <= 0.5 ? s : 0.0;
+        if (BOUNDLESS_UV) s = abs(s) <= 0.5 ? s : 0.0;
     } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
         s = u - 2.0 * roundEven(0.5 * u);
-        s = abs(s) <= 1.0 ? s : 0.0;
+        if (BOUNDLESS_UV) s = abs(s) <= 1.0 ? s : 0.0;
     } else {
         s = u >= -2.0 ? (u <= 3.0 ? u : 3.0) : -2.0;
     }

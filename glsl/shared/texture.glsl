@@ -71,14 +71,14 @@ Level level_at(const Texture image, int index) {
 #if HAS_TEXELS
 uvec4 codes_of(uint word) { return uvec4(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u); }
 
-// k / 255 and k / 65535, rounded as the quotients are, of whole numbers k up to 255 and 65535: the first product is exact.
-float unorm8(float k) { return k * (1.0 / 256.0) + k * (1.0 / 65280.0); }
+// k / 255 and k / 65535 to within an ulp; 1 for the largest code.
+float unorm8(float k) { return k * (1.0 / 255.0); }
 
-vec4 unorm8(vec4 k) { return k * (1.0 / 256.0) + k * (1.0 / 65280.0); }
+vec4 unorm8(vec4 k) { return k * (1.0 / 255.0); }
 
-float unorm16(float k) { return k * (1.0 / 65536.0) + k * (1.0 / 4294901760.0); }
+float unorm16(float k) { return k * (1.0 / 65535.0); }
 
-vec4 unorm16(vec4 k) { return k * (1.0 / 65536.0) + k * (1.0 / 4294901760.0); }
+vec4 unorm16(vec4 k) { return k * (1.0 / 65535.0); }
 
 vec4 rgba8(uint word, bool srgb) {
     uvec4 codes = codes_of(word);

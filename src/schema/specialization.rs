@@ -28,6 +28,8 @@ specialization! {
     Random = "RANDOM", switch, "random texels";
     Mappings = "MAPPINGS", modes(MapKind), "mapping";
     Entities = "ENTITIES", modes(EntityKind), "entity";
+    /// Some texture coordinates may be infinite, or no numbers.
+    BoundlessUv = "BOUNDLESS_UV", switch, "coordinates beyond all bounds";
     RotatedUv = "ROTATED_UV", switch, "rotation of texture coordinates";
     /// Some material reads a texture.
     Textured = "TEXTURED", switch, "texture look-ups";

@@ -20,8 +20,8 @@ vec4 own_row(const Disc disc, vec3 axis) { return vec4(axis, -dot3(axis, vec3(di
 
 // Kept when the own coordinates of the point lie within the unit circle.
 real distance_to(const Disc disc, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
-    real3 p;
-    real t = distance_to_plane(disc.normal, disc.distance, ray, from_eye, p);
+    real t = distance_to_plane(disc.normal, disc.distance, ray, from_eye);
+    real3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
     real3 own = p - disc.center;
     local = real2(dot3(disc.axis_u, own), dot3(disc.axis_v, own));
     real squared = local.x * local.x + local.y * local.y;

@@ -13,22 +13,28 @@ vec4 plane_of(const Plane plane) { return vec4(plane.normal, plane.distance); }
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
-// t = (h - n·o) / n·d for the plane n·p = h, and the point there.
-real distance_to_plane(real3 normal, real height, const Ray ray, bool from_eye, out real3 p) {
+// t = (h - n·o) / n·d for the plane n·p = h.
+real distance_to_plane(real3 normal, real height, const Ray ray, bool from_eye) {
     real above = height;
     if (!from_eye) {
         above = height - dot3(normal, ray.origin);
     }
-    real t = above / dot3(normal, ray.direction);
-    p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
-    return t;
+    return above / dot3(normal, ray.direction);
+}
+
+// Coordinates (u · p, v · p) of the ray's point p at t.
+real2 in_plane(real3 u, real3 v, const Ray ray, bool from_eye, real t) {
+    real2 local = t * real2(dot3(u, ray.direction), dot3(v, ray.direction));
+    if (!from_eye) {
+        local += real2(dot3(u, ray.origin), dot3(v, ray.origin));
+    }
+    return local;
 }
 
 // Kept when the point lies within the half extent on both axes.
 real distance_to(const Plane plane, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
-    real3 p;
-    real t = distance_to_plane(plane.normal, plane.distance, ray, from_eye, p);
-    local = real2(dot3(plane.axis_u, p), dot3(plane.axis_v, p));
+    real t = distance_to_plane(plane.normal, plane.distance, ray, from_eye);
+    local = in_plane(plane.axis_u, plane.axis_v, ray, from_eye, t);
     if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
         real extent = plane.half_extent;
         real2 place = local + real2(plane.eye_u, plane.eye_v);
