@@ -14,7 +14,7 @@ const uint PIXELS_AT_ONCE = 16u; // of a thread
 float exponent() { return uintBitsToFloat(OPAQUE(goal.exponent)); }
 
 // The least factor by which a count grows.
-float min_growth(uint count) { return count < 2u ? 1.5 : 1.25; }
+float min_growth(uint count) { return count < 2u ? GOAL_MIN_GROWTH_OF_ONE : GOAL_MIN_GROWTH; }
 
 // The ratio in which a pixel has its share of the samples.
 float weight(float variance, float count) {
@@ -68,8 +68,9 @@ vec3 bin_sums(uint bin) {
     float p = exponent();
     float octave = (float(bin) + 0.5 - MIDDLE) / BINS_AN_OCTAVE;
     // A pixel of n samples gains from the multiplier g n / w on: w = g n / m, and v = w^(1 + p) / n^p.
-    float variance = (pow(1.5, 1.0 + p) * ones + pow(1.25, 1.0 + p) * others) * exp2(-(1.0 + p) * octave);
-    return vec3(variance, samples, (1.5 * ones + 1.25 * others) * exp2(-octave));
+    float grown = pow(GOAL_MIN_GROWTH_OF_ONE, 1.0 + p) * ones + pow(GOAL_MIN_GROWTH, 1.0 + p) * others;
+    float variance = grown * exp2(-(1.0 + p) * octave);
+    return vec3(variance, samples, (GOAL_MIN_GROWTH_OF_ONE * ones + GOAL_MIN_GROWTH * others) * exp2(-octave));
 }
 
 const uint BINS_A_THREAD = GOAL_BINS / GOAL_THREADS;
@@ -140,7 +141,7 @@ uint round_to_two_bits(float wanted) {
 }
 
 // Returns the count of a visited pixel.
-uint grown(uint count) { return count < 64u ? 4u * count : count + (1u << findMSB(count)) / 2u; }
+uint grown(uint count) { return count < GOAL_FEW_SAMPLES ? GOAL_VISIT_GROWTH * count : count + (1u << findMSB(count)) / 2u; }
 
 uint pcg(uint v) {
     uint state = v * 747796405u + 2891336453u;

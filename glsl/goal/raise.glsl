@@ -5,14 +5,14 @@
 
 #include "state.glsl"
 
-// Assumes that the pixels around one vary like it, by a quarter, and visits them.
+// Assumes that the pixels around one vary like it, by a share, and visits them.
 void raise(uint pixel, float spread, uint radius) {
     uint x = pixel % goal.width;
     uint y = pixel / goal.width;
     for (uint row = y - min(y, radius); row <= min(y + radius, goal.height - 1u); row++) {
         for (uint column = x - min(x, radius); column <= min(x + radius, goal.width - 1u); column++) {
             uint other = row * goal.width + column;
-            float like = (other == pixel ? spread : 0.25 * spread) / (2.0 * float(word_of(GOAL_COUNTS, other)));
+            float like = (other == pixel ? spread : GOAL_SHARE_AROUND * spread) / (2.0 * float(word_of(GOAL_COUNTS, other)));
             uint bits = floatBitsToUint(like);
             if (atomicMax(pixel_words[at(GOAL_VARIANCES, other)], bits) < bits) {
                 keep_real(visits(true), other, real_of(GOAL_SPREADS, other));
@@ -27,7 +27,7 @@ void spread_discoveries() {
     if (pixel >= pixel_count() || OPAQUE(goal.pass) == 0u) return;
     float before = real_of(visits(false), pixel);
     float now = real_of(GOAL_SPREADS, pixel);
-    if (before != NOT_VISITED && now > 4.0 * before) raise(pixel, now, GOAL_RADIUS);
+    if (before != NOT_VISITED && now > GOAL_DISCOVERY * before) raise(pixel, now, GOAL_RADIUS);
 }
 
 // The host lists pixels, each with the variance of one of its samples.

@@ -18,13 +18,15 @@ uint part_pixel(uint k) {
     return x < goal.width && y < goal.height ? y * goal.width + x : pixel_count();
 }
 
+// Pixels of a thread are rows apart, so that the first one outside of the picture ends them.
+#define EACH_PIXEL(pixel) \
+    for (uint k = 0u, pixel = part_pixel(0u); k < PIXELS_A_THREAD && pixel < pixel_count(); k++, pixel = part_pixel(k))
+
 // The correction of the variances of one octave's pixels.
 void correct(uint o) {
     vec4 sums = vec4(0.0); // of the spreads of halves, their squares, the products of both, the variances
     vec4 number = vec4(0.0);
-    for (uint k = 0u; k < PIXELS_A_THREAD; k++) {
-        uint pixel = part_pixel(k);
-        if (pixel >= pixel_count()) continue;
+    EACH_PIXEL(pixel) {
         if (octave(word_of(GOAL_COUNTS, pixel)) != o) continue;
         vec2 h = seen(pixel).halves;
         sums += vec4(h.x + h.y, dot(h, h), h.x * h.y, real_of(GOAL_VARIANCES, pixel));
@@ -38,29 +40,25 @@ void correct(uint o) {
     float covariance = 2.0 * sums.z / halves - mean * mean;
     float correlation = clamp(covariance / max(variance, 1e-37) - inversesqrt(number.x), 0.0, 1.0);
     bool sure = OPAQUE(goal.bright) != 0u || (1u << o) >= GOAL_MANY_SAMPLES;
-    if (correlation >= (sure ? 0.5 : 0.25)) return;
-    float nothing = mean / 16.0;
+    if (correlation >= (sure ? GOAL_MAX_SURE_CORRELATION : GOAL_MAX_CORRELATION)) return;
+    float nothing = mean / GOAL_NOTHING_RATIO;
     vec4 found = vec4(0.0); // halves beside halves that saw nothing, their variances, those of means, contradictions
-    for (uint k = 0u; k < PIXELS_A_THREAD; k++) {
-        uint pixel = part_pixel(k);
-        if (pixel >= pixel_count()) continue;
+    EACH_PIXEL(pixel) {
         uint count = word_of(GOAL_COUNTS, pixel);
         if (octave(count) != o) continue;
         vec2 h = seen(pixel).halves;
         for (uint side = 0u; side < 2u; side++) {
             if (h[side] > nothing) continue;
             float partner = h[1u - side];
-            found += vec4(1.0, partner, 0.5 / (2.0 * float(count)), partner > 16.0 * nothing ? 1.0 : 0.0);
+            found += vec4(1.0, partner, 0.5 / (2.0 * float(count)), partner > GOAL_NOTHING_RATIO * nothing ? 1.0 : 0.0);
         }
     }
     vec4 unused = vec4(0.0);
     sum_lanes(found, unused);
     float least = found.y / max(found.x, 1.0);
-    if (found.w < 8.0 || found.z * least <= 0.1 * sums.w) return;
+    if (found.w < float(GOAL_MIN_CONTRADICTIONS) || found.z * least <= GOAL_MIN_UNSEEN_SHARE * sums.w) return;
     float reliability = 2.0 * correlation / (1.0 + correlation);
-    for (uint k = 0u; k < PIXELS_A_THREAD; k++) {
-        uint pixel = part_pixel(k);
-        if (pixel >= pixel_count()) continue;
+    EACH_PIXEL(pixel) {
         uint count = word_of(GOAL_COUNTS, pixel);
         if (octave(count) != o) continue;
         vec2 h = seen(pixel).halves;
@@ -83,9 +81,7 @@ void find_unseen() {
     uint lane = gl_LocalInvocationIndex;
     if (lane < 5u) counters[lane] = 0u;
     barrier();
-    for (uint k = 0u; k < PIXELS_A_THREAD; k++) {
-        uint pixel = part_pixel(k);
-        if (pixel >= pixel_count()) continue;
+    EACH_PIXEL(pixel) {
         uint count = word_of(GOAL_COUNTS, pixel);
         atomicOr(counters[0], 1u << octave(count));
         atomicMax(counters[1], count);
@@ -100,9 +96,7 @@ void find_unseen() {
     }
     vec4 sums = vec4(0.0); // of the differences, their squares, the variances, resolved pixels
     vec4 draws = vec4(0.0);
-    for (uint k = 0u; k < PIXELS_A_THREAD; k++) {
-        uint pixel = part_pixel(k);
-        if (pixel >= pixel_count()) continue;
+    EACH_PIXEL(pixel) {
         float variance = real_of(GOAL_VARIANCES, pixel);
         float by_beams = 0.0;
         if (OPAQUE(goal.resolves) != 0u) {

@@ -83,6 +83,8 @@ pub struct PackedScene {
     pub solid_bytes: usize,
     /// Some texture has a table of sums, which no image holds.
     pub summed_tables: bool,
+    /// Texture coordinates are moderate numbers wherever a ray meets something.
+    pub bounded_uv: bool,
     /// Samples per pixel.
     pub samples: u32,
     /// Reals are f64 on the device too; else they are rounded to f32 here.
@@ -192,6 +194,7 @@ pub fn pack_with(
         packed.records.materials.push(material);
     }
     geometry::pack_shapes(&mut packed, scene)?;
+    packed.bounded_uv = geometry::bounds_uv(scene);
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
     }

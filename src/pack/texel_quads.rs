@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::{PackedScene, Schedule, TextureKind};
 use crate::schema::layout::Texture;
 use crate::texture::data::TexelFormat;
-use crate::texture::sampler_spec::{Address, Filter};
+use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// Texels with their neighbours.
 pub struct TexelQuads {
@@ -23,16 +23,15 @@ impl PackedScene {
     /// Returns true if bilinear look-ups may read their four texels at once: of flat textures with one level, which are
     /// tiled or clamped, by no other filter.
     pub fn allows_texel_quads(&self) -> bool {
-        let flat = |t: &Texture| {
-            t.kind == TextureKind::Procedural || t.kind == TextureKind::Flat && t.levels == 1
-        };
+        let flat =
+            |t: &Texture| t.kind == TextureKind::Procedural || t.kind == TextureKind::Flat && t.levels == 1;
         let plain = |mode: Address| matches!(mode, Address::Repeat | Address::ClampToEdge);
         let samplers = &self.records.samplers;
         !self.texels.is_empty()
             && !self.summed_tables
             && self.records.textures.iter().all(flat)
             && samplers.iter().all(|s| plain(s.address_u) && plain(s.address_v) && !s.crosses_poles)
-            && samplers.iter().all(|s| s.mag_filter == Filter::Linear)
+            && self.sampler_specs.iter().all(SamplerSpec::magnifies_linearly)
     }
 
     /// Returns the number of words of texels with their neighbours; `None` if they are not all grey or all of four channels,
@@ -89,7 +88,9 @@ fn fill_grey(quads: &mut [u32], row: &[u8], below: &[u8]) {
 }
 
 fn fill_words(quads: &mut [u32], row: &[u8], below: &[u8]) {
-    let word = |row: &[u8], at: usize| u32::from_ne_bytes([row[4 * at], row[4 * at + 1], row[4 * at + 2], row[4 * at + 3]]);
+    let word = |row: &[u8], at: usize| {
+        u32::from_ne_bytes([row[4 * at], row[4 * at + 1], row[4 * at + 2], row[4 * at + 3]])
+    };
     let width = row.len() / 4;
     for (at, four) in quads.as_chunks_mut::<4>().0.iter_mut().enumerate() {
         let right = if at + 1 == width { 0 } else { at + 1 };
@@ -102,7 +103,8 @@ mod tests {
     use super::{fill_grey, fill_words};
 
     #[test]
-    fn a_word_has_the_texel_its_right_neighbour_and_both_below_and_the_last_column_is_followed_by_the_first() {
+    fn a_word_has_the_texel_its_right_neighbour_and_both_below_and_the_last_column_is_followed_by_the_first()
+    {
         let mut quads = [0; 3];
         fill_grey(&mut quads, &[1, 2, 3], &[4, 5, 6]);
         assert_eq!(quads, [0x0504_0201, 0x0605_0302, 0x0406_0103]);

@@ -56,7 +56,8 @@ impl TexelBuffer {
     pub fn upload_quads(gpu: &Gpu, packed: &PackedScene) -> Result<TexelBuffer> {
         let quads = packed.texel_quads();
         let usage = if quads.wide { BufferUse::TexelUint4 } else { BufferUse::TexelUint };
-        let buffer = gpu.upload_buffer("texels with neighbours", usage, bytemuck::cast_slice(&quads.words))?;
+        let buffer =
+            gpu.upload_buffer("texels with neighbours", usage, bytemuck::cast_slice(&quads.words))?;
         Ok(TexelBuffer { blocks: vec![buffer], block_log2: 0 })
     }
 

@@ -51,6 +51,24 @@ constants! {
     GOAL_MANY_SAMPLES: u32 = 64;
     /// Length of a run of pixels of which one is visited.
     GOAL_RUN: u32 = 128;
+    /// A half of a pixel has seen nothing if its variance is this many times less than that of the mean half. Least number of halves
+    /// that contradict their partners, and least share of the variance that these account for; largest correlation of the halves,
+    /// and that of pixels with many samples or in scenes known to contain something small and bright.
+    GOAL_NOTHING_RATIO: f64 = 16.0;
+    GOAL_MIN_CONTRADICTIONS: u32 = 8;
+    GOAL_MIN_UNSEEN_SHARE: f64 = 0.1;
+    GOAL_MAX_CORRELATION: f64 = 0.25;
+    GOAL_MAX_SURE_CORRELATION: f64 = 0.5;
+    /// Least factors by which a count of one, and larger ones, grow.
+    GOAL_MIN_GROWTH_OF_ONE: f64 = 1.5;
+    GOAL_MIN_GROWTH: f64 = 1.25;
+    /// Factor by which the count of a visited pixel grows if it has fewer than `GOAL_FEW_SAMPLES` in each half.
+    GOAL_VISIT_GROWTH: u32 = 4;
+    GOAL_FEW_SAMPLES: u32 = 64;
+    /// A visited pixel has made a discovery if its samples vary this many times more than before; the share of that by which those
+    /// around it are assumed to vary.
+    GOAL_DISCOVERY: f64 = 4.0;
+    GOAL_SHARE_AROUND: f64 = 0.25;
     /// Bins of multipliers, in eighths of an octave, and the one that begins at 1.
     GOAL_BINS: u32 = 512;
     GOAL_MIDDLE_BIN: u32 = 128;

@@ -119,6 +119,11 @@ impl SamplerSpec {
         self.mag != self.min || self.mip != MipMode::None
     }
 
+    /// Returns true if a magnified texture is interpolated between the four nearest texels.
+    pub fn magnifies_linearly(&self) -> bool {
+        self.mag == Filter::Linear
+    }
+
     /// Returns true if lookups blend several texels.
     pub fn blends(&self) -> bool {
         self.mag.traits().blends || self.min.traits().blends

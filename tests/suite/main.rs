@@ -82,6 +82,7 @@ mod streams;
 mod study;
 mod support;
 mod texel_buffer;
+mod texel_quads;
 mod texture_command;
 mod tile_culling;
 mod tiling;

@@ -4,6 +4,7 @@
 #define LINEAR_GLSL
 
 #include "cube.glsl"
+#include "../texel_quad.glsl"
 
 #if SOURCE != SOURCE_NONE
 

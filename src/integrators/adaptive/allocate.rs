@@ -5,6 +5,7 @@
 use rayon::prelude::*;
 
 use crate::sampling::Aim;
+use crate::schema::constants::{GOAL_MIN_GROWTH, GOAL_MIN_GROWTH_OF_ONE};
 
 /// Pixels sorted into bins by the multiplier at which they begin to gain samples. Its memory is kept from pass to pass.
 #[derive(Default)]
@@ -40,7 +41,7 @@ pub fn weight(variance: f32, count: u32, p: f32) -> f32 {
 /// Returns the least factor by which a count grows: fewer extra samples would not pay for their batch and
 /// would be lost to rounding.
 fn min_growth(now: f64) -> f64 {
-    if now < 2.0 { 1.5 } else { 1.25 }
+    if now < 2.0 { GOAL_MIN_GROWTH_OF_ONE } else { GOAL_MIN_GROWTH }
 }
 
 /// Pixels that one thread processes at once.

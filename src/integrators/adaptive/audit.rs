@@ -15,7 +15,7 @@ use super::{MAX_COUNT, OCTAVES, octave};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::sampling::{AuditPlan, Audited, Backend, Drawn, Pixels, Raises};
-use crate::schema::constants::GOAL_AUDIT_RADIUS;
+use crate::schema::constants::{GOAL_AUDIT_RADIUS, GOAL_SHARE_AROUND};
 use crate::schema::layout::{BATCH_APART, BATCH_BARE, BATCH_STREAM_SHIFT, PixelBatch};
 
 /// The probability that the interval contains the true value.
@@ -198,7 +198,7 @@ pub fn raise_all(raises: &Raises, variances: &mut [f32], counts: &[u32], width: 
     raised
 }
 
-/// Assumes that the pixels around one vary like it, by a quarter.
+/// Assumes that the pixels around one vary like it, by a share.
 pub fn raise(
     variances: &mut [f32],
     counts: &[u32],
@@ -211,7 +211,8 @@ pub fn raise(
     let (x, y, height) = (pixel % width, pixel / width, counts.len() / width);
     for row in y.saturating_sub(radius)..(y + radius + 1).min(height) {
         for i in row * width + x.saturating_sub(radius)..row * width + (x + radius + 1).min(width) {
-            let like = if i == pixel { spread } else { 0.25 * spread } / (2.0 * counts[i] as f32);
+            let like = if i == pixel { spread } else { GOAL_SHARE_AROUND as f32 * spread }
+                / (2.0 * counts[i] as f32);
             if variances[i] < like {
                 variances[i] = like;
                 raised.push(i as u32);

@@ -5,16 +5,16 @@
 use super::MAX_COUNT;
 use super::audit::raise;
 use super::estimate::Estimate;
-use crate::schema::constants::{GOAL_RADIUS, GOAL_RUN};
+use crate::schema::constants::{GOAL_DISCOVERY, GOAL_FEW_SAMPLES, GOAL_RADIUS, GOAL_RUN, GOAL_VISIT_GROWTH};
 
 /// Length of a run of pixels of which one is visited.
 const RUN: usize = GOAL_RUN as usize;
 /// Factor by which the count of a visited pixel grows if it has fewer than `FEW` samples in each half; a larger count
 /// grows by half of its leading power of two.
-const GROWTH: u32 = 4;
-const FEW: u32 = 64;
+const GROWTH: u32 = GOAL_VISIT_GROWTH;
+const FEW: u32 = GOAL_FEW_SAMPLES;
 /// A visited pixel has made a discovery if its samples vary this many times more than before.
-const FOUND: f32 = 4.0;
+const FOUND: f32 = GOAL_DISCOVERY as f32;
 /// Radius, in pixels, of the neighbourhood that is assumed to be like it.
 const RADIUS: usize = GOAL_RADIUS as usize;
 

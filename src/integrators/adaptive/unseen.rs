@@ -10,19 +10,22 @@
 use rayon::prelude::*;
 
 use super::{OCTAVES, octave};
-use crate::schema::constants::{GOAL_MANY_SAMPLES, GOAL_PART_SIDE};
+use crate::schema::constants::{
+    GOAL_MANY_SAMPLES, GOAL_MAX_CORRELATION, GOAL_MAX_SURE_CORRELATION, GOAL_MIN_CONTRADICTIONS,
+    GOAL_MIN_UNSEEN_SHARE, GOAL_NOTHING_RATIO, GOAL_PART_SIDE,
+};
 
 /// Pixels along each side of a part of the picture.
 const SIDE: usize = GOAL_PART_SIDE as usize;
 /// A half has seen nothing if its variance is this many times less than that of the mean half.
-const NOTHING_RATIO: f32 = 16.0;
+const NOTHING_RATIO: f32 = GOAL_NOTHING_RATIO as f32;
 /// Least number of halves that contradict their partners, and least share of the variance that they account for: a few
 /// slivers at edges say nothing about their surroundings.
-const MIN_CONTRADICTIONS: u32 = 8;
-const MIN_SHARE: f64 = 0.1;
+const MIN_CONTRADICTIONS: u32 = GOAL_MIN_CONTRADICTIONS;
+const MIN_SHARE: f64 = GOAL_MIN_UNSEEN_SHARE;
 /// Largest correlation of the halves, as both see any variation of the picture itself: for pixels with few samples in
 /// an unknown scene; and for pixels with many samples, or scenes known to contain something small and bright.
-const MAX_CORRELATION: [f64; 2] = [0.25, 0.5];
+const MAX_CORRELATION: [f64; 2] = [GOAL_MAX_CORRELATION, GOAL_MAX_SURE_CORRELATION];
 /// From this number on, samples count as many.
 const MANY_SAMPLES: usize = GOAL_MANY_SAMPLES as usize;
 

@@ -31,7 +31,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::Random => u32::from(chooses(s)),
         C::Mappings => bits(s.records.uv_projections.iter().map(|m| m.kind as u32)),
         C::Entities => bits(s.records.uv_projections.iter().map(|m| m.entity as u32)),
-        C::BoundlessUv => u32::from(has_boundless_uv(s)),
+        C::BoundlessUv => u32::from(!s.bounded_uv),
         C::RotatedUv => u32::from(s.records.uv_projections.iter().any(rotates)),
         C::Textured => u32::from(s.records.materials.iter().any(|m| m.texture_index != NO_TEXTURE)),
         C::Untextured => u32::from(s.records.materials.iter().any(|m| m.texture_index == NO_TEXTURE)),

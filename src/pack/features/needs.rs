@@ -4,8 +4,8 @@
 use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
 use crate::scene::model::{Model, PixelFilterKind};
-use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS, NO_MATERIAL};
-use crate::schema::enums::{AlphaMode, MapKind, MaterialMap, Quantity, TextureSize};
+use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS};
+use crate::schema::enums::{AlphaMode, MaterialMap, Quantity, TextureSize};
 use crate::schema::layout::{self, NO_TEXTURE};
 use crate::texture::sampler_spec::Filter;
 
@@ -30,34 +30,6 @@ pub fn cone_shapes(scene: &PackedScene) -> u32 {
 
 pub fn unrolled(count: usize) -> u32 {
     if count <= UNROLL { count as u32 } else { DYNAMIC }
-}
-
-/// Returns true if texture coordinates may be infinite or no numbers: all but those that planes with bounds have of their own.
-pub fn has_boundless_uv(scene: &PackedScene) -> bool {
-    const LARGEST: f64 = 1e18;
-    let records = &scene.records;
-    let shows_texels = |material: u32| {
-        let material = &records.materials[material as usize];
-        material.texture_index != NO_TEXTURE
-            || material.bump_texture_index != NO_TEXTURE
-            || material_maps(scene) != 0
-    };
-    let is_bounded = |plane: &layout::Plane| {
-        let map = &records.uv_projections[plane.uv_projection as usize];
-        let scale = map.m00.abs().max(map.m01.abs()).max(map.m10.abs()).max(map.m11.abs());
-        let reach = plane.half_extent.0 + plane.eye_u.abs().max(plane.eye_v.abs());
-        plane.half_extent.0 >= 0.0
-            && map.kind == MapKind::Plane
-            && scale.max(1.0) * reach < LARGEST
-            && map.offset.abs().max_element() < LARGEST
-    };
-    let curved = records.spheres.iter().map(|s| s.material);
-    let flat = records.triangles.iter().map(|t| t.material).chain(records.discs.iter().map(|d| d.material));
-    let others = curved.chain(flat).chain(records.meshes.iter().map(|m| m.material));
-    records.planes.is_empty()
-        || scene.header.environment_material != NO_MATERIAL
-        || !records.planes.iter().all(|p| !shows_texels(p.material) || is_bounded(p))
-        || others.into_iter().any(shows_texels)
 }
 
 pub fn rotates(map: &layout::UvProjection) -> bool {

@@ -161,6 +161,16 @@ fn reach(p: DVec3, eye: DVec3) -> f64 {
     (p - eye).abs().max_element()
 }
 
+/// Returns true if texture coordinates are moderate numbers wherever a ray meets something.
+pub fn bounds_uv(scene: &Scene) -> bool {
+    let bounds_uv = |shape: &dyn Rounded| {
+        let material = &scene.materials[shape.material()];
+        material.textures().next().is_none() || shape.bounds_uv(&material.mapping, scene.camera.eye)
+    };
+    let mut shapes = rounded_shapes(scene).peekable();
+    shapes.peek().is_some() && scene.background.environment.is_none() && shapes.all(bounds_uv)
+}
+
 /// The errors of a shape in f32.
 pub(super) trait Rounded: Shape {
     /// Returns true if it is one of many, each of which counts once, not by the rays that hit it.
@@ -170,6 +180,11 @@ pub(super) trait Rounded: Shape {
 
     /// The largest number that it has, seen from the eye.
     fn extent(&self, eye: DVec3) -> f64;
+
+    /// Returns true if texture coordinates are moderate numbers wherever a ray meets it.
+    fn bounds_uv(&self, _: &Mapping, _: DVec3) -> bool {
+        false
+    }
 
     /// Returns true if the error of its outline is visible.
     fn misses_outline(&self, _: &Camera) -> bool {

@@ -94,7 +94,17 @@ fn plane_error(camera: &Camera, plane: &Plane, mapping: &Mapping, [origin, way]:
     Some(tiles)
 }
 
+/// Coordinates below this are moderate: their products with a scale as large are numbers in f32.
+const MODERATE: f64 = 1e12;
+
 impl Rounded for Plane {
+    fn bounds_uv(&self, mapping: &Mapping, eye: DVec3) -> bool {
+        let [u, v] = plane_rows(self, eye);
+        let own = self.half_extent.map(|extent| extent.max(u.w.abs()).max(v.w.abs()));
+        let scale = mapping.scale.abs().max_element().max(mapping.offset.abs().max_element());
+        mapping.kind == MappingKind::Surface && own.is_some_and(|own| own < MODERATE) && scale < MODERATE
+    }
+
     fn extent(&self, eye: DVec3) -> f64 {
         let normal = self.tangent.cross(self.bitangent).normalize();
         normal.dot(self.origin - eye).abs().max(RANGE[0])
