@@ -53,9 +53,10 @@ real2 turned_uv(const UvProjection map, real2 uv) {
 
 // Returns matrix · uv + offset.
 real2 placed(const UvProjection map, real2 uv) {
-    if (!ROTATED_UV) return fma(real2(map.m00, map.m11), uv, map.offset);
-    real2 mapped = turned_uv(map, uv) + map.offset;
-    return mapped;
+    // A product with zero changes nothing, so that maps that do not rotate round alike in either way.
+    real2 mapped = map.offset;
+    if (ROTATED_UV) mapped = fma(real2(map.m01, map.m10), uv.yx, mapped);
+    return fma(real2(map.m00, map.m11), uv, mapped);
 }
 
 // Returns the coordinate of a mapping that ends with `placed`.

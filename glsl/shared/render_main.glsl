@@ -149,8 +149,10 @@ void main() {
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, starts ? 0u : path.depth, starts);
             else {
+                // The next place is independent of this sample, which leaves processors both to do at once. Beyond the last one
+                // there is none: permutations would look for it forever.
                 dimensions.place = position;
-                uvec2 next = sample_point(points, s + 1u, false);
+                uvec2 next = sample_point(points, min(s + 1u, task.end - 1u), false);
                 position = starts ? next : position;
             }
             if (starts) {
