@@ -261,7 +261,7 @@ impl Backend for DeviceBackend<'_> {
     fn resolve(&mut self, pixels: Rect, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         self.check(&pixels, 0)?;
         let pass = match &self.prepared.work {
-            Work::Beams(pass, _) => Some(pass),
+            Work::Beams(pass, _) => Some(&**pass),
             _ => self.beams.as_ref(),
         };
         pass.map_or(Ok(Vec::new()), |pass| pass.resolve(pixels, &mut self.report, progress))

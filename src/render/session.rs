@@ -82,7 +82,7 @@ pub(super) enum Work<'a> {
     Tiles(Arc<TilePass<'a>>),
     Batches(SamplePipeline),
     /// The second field is the pipeline for pixels that beams cannot resolve, built on first use.
-    Beams(BeamPass<'a>, OnceLock<SamplePipeline>),
+    Beams(Box<BeamPass<'a>>, OnceLock<SamplePipeline>),
 }
 
 impl<'a> Session<'a> {
@@ -162,7 +162,9 @@ impl<'a> Session<'a> {
             let _ = self.tile_culling.set(tile_culling);
         }
         let work = match scene.schedule {
-            Schedule::Tiles if scene.beams => Work::Beams(self.beam_pass(scene, features)?, OnceLock::new()),
+            Schedule::Tiles if scene.beams => {
+                Work::Beams(Box::new(self.beam_pass(scene, features)?), OnceLock::new())
+            }
             Schedule::Tiles => {
                 let (renderer, film) =
                     self.renderer(scene, &features, shader_for(scene.algorithm, &features)?)?;

@@ -133,7 +133,7 @@ impl<'p> DeviceBackend<'p> {
             self.dispatch = Some((2.0 * one - two).clamp(0.0, MAX_OVERHEAD * one));
         }
         let seconds = self.timed(&pass, &band, start..start + tiles, 0..samples, progress)?;
-        let rendering = seconds - self.dispatch.unwrap_or(0.0);
+        let rendering = (seconds - self.dispatch.unwrap_or(0.0)).max((1.0 - MAX_OVERHEAD) * seconds);
         // Of the tiles at the borders only a part is in the picture.
         let tiled = f64::from(TILE * TILE) * f64::from(tiles);
         Ok(rendering * whole.area() as f64 / tiled.min(whole.area() as f64))

@@ -41,7 +41,7 @@ impl Costs {
     /// Returns the seconds of each further sample a pixel. Clocks err: it is between the mean of all and a quarter of it.
     pub fn each(&self) -> f64 {
         let [many, few] = self.samples.map(f64::from);
-        let mean = self.seconds[0] / many;
+        let mean = self.seconds[0].max(0.0) / many;
         ((self.seconds[0] - self.seconds[1]) / (many - few)).clamp(0.25 * mean, mean)
     }
 }

@@ -193,7 +193,9 @@ impl Auto {
         let number = time / (2.0 * f64::from(samples) * clock.sample);
         pilot.widen(backend, [film.width, film.height], [number as u32, samples], progress)?;
         let Found { mse, deviation, interval } = pilot.error_in(&film);
-        let rmse = mse.max(deviation).sqrt();
+        // Less than a deviation cannot be told from none; and few pixels that have most of the error may have missed some.
+        let missed = if interval.is_some() { 0.0 } else { deviation };
+        let rmse = (mse.max(deviation) + missed).sqrt();
         let is_noise = chosen == Candidate::Samples;
         let pixels = film.pixels.len() as f64;
         let outcome = Outcome {
