@@ -2,11 +2,13 @@
 //! of filters at equal time, `cargo bench -- patterns` for those of sample patterns, `cargo bench
 //! -- pixel-filters` for those of pixel filters, `cargo bench -- cones` for cones against samples,
 //! `cargo bench -- mips` for mip chains alone, `cargo bench -- meshes` for a million triangles, `cargo
-//! bench -- scaling` for time against the amount of work. Runs the program itself on the scenes of
+//! bench -- scaling` for time against the amount of work, `cargo bench -- budgets` for `auto` against the
+//! best fixed choice in the same time. Runs the program itself on the scenes of
 //! `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean to full
 //! pipelines from interleaved runs, errors against the float64 references. `MOIRE_DEVICE` chooses
 //! the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
 
+mod budgets;
 mod cones;
 mod equal_time;
 mod meshes;
@@ -181,6 +183,11 @@ fn main() -> Outcome<()> {
     if arguments.next().is_some() {
         let kinds: Vec<String> = arguments.filter(|argument| !argument.starts_with('-')).collect();
         return scaling::tables(&bench, &kinds);
+    }
+    let mut arguments = std::env::args().skip_while(|argument| argument != "budgets");
+    if arguments.next().is_some() {
+        let scenes: Vec<String> = arguments.filter(|argument| !argument.starts_with('-')).collect();
+        return budgets::table(&bench, &scenes);
     }
     if std::env::args().any(|argument| argument == "filters") {
         return equal_time::table(&bench);

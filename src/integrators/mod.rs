@@ -3,9 +3,11 @@
 //! of samples, resolved pixels, or samples of single pixels.
 
 pub mod adaptive;
+mod auto;
 mod beam;
 mod fixed;
 
+pub use auto::Auto;
 pub use beam::Beam;
 pub use fixed::{Cone, Fixed};
 
@@ -49,12 +51,14 @@ pub struct Adaptive {
     pub goal: Goal,
     /// Tells samples and errors of single pixels, too.
     pub tells_pixels: bool,
+    /// Samples per second, if they are known from before.
+    pub rate: Option<f64>,
 }
 
 impl Integrator for Adaptive {
     fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated> {
         let adaptive::Run { film, outcome, estimates } =
-            adaptive::run(backend, film, self.goal, self.tells_pixels, progress)?;
+            adaptive::run(backend, film, self.goal, self.tells_pixels, self.rate, progress)?;
         Ok(Integrated { outcome: Some(outcome), estimates, ..Integrated::from(film) })
     }
 }

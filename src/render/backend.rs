@@ -1,6 +1,7 @@
 //! A device as a backend: ranges, batches and beams of a prepared session. Input: an integrator's requests. Output:
 //! sums and resolved pixels, and at the end the statistics of the device.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::Report;
@@ -9,52 +10,38 @@ use super::beams::BeamPass;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
 use super::goal::{DevicePixels, GoalBackend};
-use super::plan::integrator;
-use super::session::{Prepared, Turn, Work};
-use super::tiles::TileRenderer;
+use super::rivals::Rivals;
+use super::session::{Prepared, TilePass, Turn, Work};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
 use crate::gpu::Gpu;
-use crate::integrators::adaptive::Goal;
-use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun, Pixels};
+use crate::sampling::{Backend, Candidate, FilmSums, HalfSums, Made, PilotRun, Pixels, wall_seconds};
 use crate::schema::layout::PixelBatch;
-
-impl Prepared<'_, '_> {
-    /// Renders once more. The report's times of loading and compiling are those of the first render.
-    pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
-        self.render_to_goal(None, progress)
-    }
-
-    /// Renders as [`Prepared::render`] does; a scene that is sampled by batches ends at `goal`, by default its number
-    /// of samples.
-    pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
-        let [width, height] = self.scene.header.film_size.to_array();
-        let mut backend = DeviceBackend::new(self)?;
-        let integrated = integrator(&self.scene, goal, false).render(
-            &mut backend,
-            Film::new(width, height, 0),
-            progress,
-        )?;
-        let mut report = backend.finish()?;
-        Ok((report.take(integrated), report))
-    }
-}
 
 /// A prepared session while it renders.
 pub struct DeviceBackend<'p> {
-    prepared: &'p Prepared<'p, 'p>,
+    pub(super) prepared: &'p Prepared<'p, 'p>,
     /// Set by the first request for batches.
     batches: Option<BatchSampler<'p>>,
     /// Set by a pilot run, for a scene that is sampled by batches.
     beams: Option<BeamPass<'p>>,
     /// Tile-samples of the next slice, learnt from the previous ones.
-    next: f64,
-    report: Report,
+    pub(super) next: f64,
+    pub(super) report: Report,
     begun: Instant,
-    /// Seconds of compiling before the render.
-    compiled: f64,
+    /// Seconds of compiling and uploading since then, which are told apart.
+    pub(super) apart: f64,
+    /// Opens sessions of other scenes that show the same; renders whole tiles of a scene that is sampled by batches; the
+    /// backends of sessions that were opened.
+    pub(super) rivals: Option<&'p dyn Rivals>,
+    pub(super) even: Option<Arc<TilePass<'p>>>,
+    /// True once whole tiles were rendered.
+    pub(super) is_warm: bool,
+    /// Seconds of a dispatch by itself, whatever it renders, once it was measured.
+    pub(super) dispatch: Option<f64>,
+    pub(super) opened: Vec<(Candidate, DeviceBackend<'p>)>,
     _turn: Turn<'p>,
 }
 
@@ -81,21 +68,34 @@ impl<'p> DeviceBackend<'p> {
             batches: None,
             beams: None,
             next: DispatchPlan::FIRST,
-            compiled: report.seconds.compile,
             report,
             begun,
+            apart: 0.0,
+            rivals: None,
+            even: None,
+            is_warm: false,
+            dispatch: None,
+            opened: Vec::new(),
             _turn: turn,
         })
+    }
+
+    /// Makes the pictures of other scenes that show the same eligible.
+    pub(super) fn with_rivals(self, rivals: &'p dyn Rivals) -> DeviceBackend<'p> {
+        DeviceBackend { rivals: Some(rivals), ..self }
     }
 
     /// Ends the render and returns the statistics of the device.
     pub fn finish(self) -> Result<Report> {
         drop((self.batches, self.beams));
         let mut report = self.report;
-        let elapsed = self.begun.elapsed().as_secs_f64() - (report.seconds.compile - self.compiled);
+        let elapsed = self.begun.elapsed().as_secs_f64() - self.apart;
+        for (_, rival) in self.opened {
+            report.add_rival(rival.finish()?);
+        }
         match self.prepared.work {
             // Sums and means of what was read are the host's.
-            Work::Tiles { .. } => report.seconds.readback = elapsed - report.seconds.render,
+            Work::Tiles(_) => report.seconds.readback = elapsed - report.seconds.render,
             _ => report.seconds.render = elapsed - report.seconds.readback,
         }
         let session = self.prepared.session;
@@ -123,11 +123,13 @@ impl<'p> DeviceBackend<'p> {
                         // Never set twice: it was empty just now.
                         let _ = pipeline.set(built);
                     }
-                    self.report.seconds.compile += clock.elapsed().as_secs_f64();
+                    let seconds = clock.elapsed().as_secs_f64();
+                    self.report.seconds.compile += seconds;
+                    self.apart += seconds;
                     let built = pipeline.get().ok_or_else(|| Error::new("no pipeline for samples"))?;
                     self.prepared.sampler(built)?
                 }
-                Work::Tiles { .. } => {
+                Work::Tiles(_) => {
                     return Err(Error::new("a scene that is rendered tile by tile has no batches"));
                 }
             });
@@ -145,7 +147,8 @@ impl<'p> DeviceBackend<'p> {
     ) -> Result<()> {
         self.check(&range.pixels, range.samples.end)?;
         let Prepared { session, scene, .. } = self.prepared;
-        let (renderer, film) = self.tiles()?;
+        let pass = self.tiles()?;
+        let TilePass { renderer, film } = &*pass;
         let tiles = film.tiles(range.pixels);
         let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.samples_at_once, tiles);
         for band in film.bands(range.pixels) {
@@ -161,12 +164,11 @@ impl<'p> DeviceBackend<'p> {
         Ok(())
     }
 
-    fn tiles(&self) -> Result<(&'p TileRenderer<'p>, &'p FilmBuffer)> {
-        match &self.prepared.work {
-            Work::Tiles { renderer, film } => Ok((renderer, film)),
-            Work::Batches(_) | Work::Beams(..) => {
-                Err(Error::new("a scene that is packed for batches or beams has no sums of tiles"))
-            }
+    pub(super) fn tiles(&self) -> Result<Arc<TilePass<'p>>> {
+        match (&self.prepared.work, &self.even) {
+            (Work::Tiles(pass), _) => Ok(pass.clone()),
+            (_, Some(pass)) => Ok(pass.clone()),
+            _ => Err(Error::new("a scene that is packed for batches or beams has no sums of tiles")),
         }
     }
 
@@ -208,12 +210,17 @@ impl Backend for DeviceBackend<'_> {
         self.prepared.scene.prefilters()
     }
 
+    /// Compiling and uploading are told apart from rendering.
+    fn seconds(&self) -> f64 {
+        wall_seconds() - self.apart
+    }
+
     fn bright_share(&self) -> f64 {
         self.prepared.scene.bright_share.unwrap_or(1.0)
     }
 
     fn sum(&mut self, range: &Range, progress: &dyn Progress) -> Result<FilmSums> {
-        let mut block = self.tiles()?.1.block(range.clone());
+        let mut block = self.tiles()?.film.block(range.clone());
         self.sum_bands(range, progress, |gpu, film, band| film.read(gpu, band, &mut block))?;
         Ok(block.into())
     }
@@ -226,10 +233,35 @@ impl Backend for DeviceBackend<'_> {
         Ok(dropped)
     }
 
+    fn cost(&mut self, candidate: Candidate, samples: u32, progress: &dyn Progress) -> Result<Option<f64>> {
+        self.candidate_cost(candidate, samples, progress)
+    }
+
+    fn prefiltered_apart(
+        &mut self,
+        batches: &[PixelBatch],
+        progress: &dyn Progress,
+    ) -> Result<Option<Vec<[f32; 4]>>> {
+        self.rival(Candidate::Prefiltered)?
+            .map(|rival| rival.whole_pixels_apart(batches, progress))
+            .transpose()
+    }
+
+    fn render_by(
+        &mut self,
+        candidate: Candidate,
+        samples: u32,
+        seconds: f64,
+        film: &mut Film,
+        progress: &dyn Progress,
+    ) -> Result<Made> {
+        self.render_candidate(candidate, samples, seconds, film, progress)
+    }
+
     fn resolve(&mut self, pixels: Rect, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         self.check(&pixels, 0)?;
         let pass = match &self.prepared.work {
-            Work::Beams(pass, _) => Some(pass),
+            Work::Beams(pass, _) => Some(&**pass),
             _ => self.beams.as_ref(),
         };
         pass.map_or(Ok(Vec::new()), |pass| pass.resolve(pixels, &mut self.report, progress))
@@ -238,7 +270,9 @@ impl Backend for DeviceBackend<'_> {
     fn pilot(&mut self, progress: &dyn Progress) -> Result<Option<PilotRun>> {
         let clock = Instant::now();
         self.beams = self.prepared.session.beams_beside_samples()?;
-        self.report.seconds.compile += clock.elapsed().as_secs_f64();
+        let seconds = clock.elapsed().as_secs_f64();
+        self.report.seconds.compile += seconds;
+        self.apart += seconds;
         self.beams.as_ref().map(|pass| pass.pilot(&mut self.report, progress)).transpose()
     }
 

@@ -2,12 +2,13 @@
 //! packed scene with its textures, and an empty film; all are made at the same time, as each of them mostly waits.
 
 use std::collections::HashSet;
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::options::{On, Options};
+use super::rivals::RivalScenes;
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::gpu::Gpu;
@@ -28,6 +29,8 @@ pub(super) struct Loaded {
     pub(super) packed: PackedScene,
     /// Warnings about the textures.
     pub(super) doubts: Vec<String>,
+    /// Other scenes that show the same, if one may be chosen.
+    pub(super) rivals: RivalScenes,
     pub(super) startup: f64,
     pub(super) load: f64,
 }
@@ -38,7 +41,8 @@ pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded
         let start = Instant::now();
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
-            let packed = pack(scene, options, || told.recv().unwrap_or_default());
+            let rivals = if on.len() == 1 { RivalScenes::of(scene, options) } else { RivalScenes::default() };
+            let packed = pack(scene, options, rivals, || told.recv().unwrap_or_default());
             (packed, start.elapsed().as_secs_f64())
         });
         let selects = on.iter().filter_map(|on| match on {
@@ -56,8 +60,18 @@ pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded
         let _ = tell.send(mip_chains);
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // An error in the scene takes precedence over one of the machine.
-        packed.and_then(|(packed, doubts)| Ok(Loaded { gpus: gpus?, packed, doubts, startup, load }))
+        packed.and_then(|packed| {
+            let Packed { packed, doubts, rivals } = packed;
+            Ok(Loaded { gpus: gpus?, packed, doubts, rivals, startup, load })
+        })
     })
+}
+
+/// A packed scene, and what was found on the way.
+struct Packed {
+    packed: PackedScene,
+    doubts: Vec<String>,
+    rivals: RivalScenes,
 }
 
 /// Returns the packed scene, and warnings about its textures. `mip_chains` decides where levels are generated, and may
@@ -65,8 +79,9 @@ pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded
 fn pack(
     scene: &Scene,
     options: &Options,
+    mut rivals: RivalScenes,
     mip_chains: impl FnOnce() -> MipPlacement,
-) -> Result<(PackedScene, Vec<String>)> {
+) -> Result<Packed> {
     let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
     // All first: of several faults, the one of the first texture is told.
     let textures: Vec<Result<_>> = scene.textures.par_iter().map(|t| load_with_notes(t, values)).collect();
@@ -77,7 +92,11 @@ fn pack(
     let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
     let doubts: Vec<String> = notes.chain(of_textures(scene, &textures)).collect();
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
-    Ok((pack::pack_with(scene, textures, options.crop, mip_chains)?, doubts))
+    let kept = (!rivals.is_empty()).then(|| textures.clone());
+    let packed = pack::pack_with(scene, textures, options.crop, mip_chains)?;
+    // Beams may have kept them already.
+    rivals.textures = packed.beam_textures.clone().or(kept.map(Arc::new));
+    Ok(Packed { packed, doubts, rivals })
 }
 
 /// Loads as [`load`] does, and makes an empty film of the picture meanwhile.

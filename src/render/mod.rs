@@ -26,6 +26,7 @@ mod options;
 mod picture;
 mod plan;
 mod resources;
+mod rivals;
 mod sample_pipeline;
 mod session;
 mod session_pipelines;
@@ -33,6 +34,7 @@ pub mod specialization;
 mod texel_buffer;
 mod tile_culling;
 mod tiles;
+mod trial;
 mod tuning;
 mod unfinished;
 mod unfinished_list;
@@ -140,6 +142,15 @@ impl Report {
         let Integrated { film, outcome, sampled_pixels, dropped, .. } = integrated;
         (self.outcome, self.sampled_pixels, self.dropped) = (outcome, sampled_pixels, dropped);
         film
+    }
+
+    /// Adds the device's statistics of another session of the same render.
+    fn add_rival(&mut self, other: Report) {
+        self.device_render_seconds += other.device_render_seconds;
+        self.slices += other.slices;
+        self.longest_slice_seconds = self.longest_slice_seconds.max(other.longest_slice_seconds);
+        let news = other.warnings.into_iter().filter(|w| !self.warnings.contains(w)).collect::<Vec<_>>();
+        self.warnings.extend(news);
     }
 
     fn add_slice(&mut self, time: RunTime) {

@@ -10,6 +10,7 @@ use super::backend::DeviceBackend;
 use super::load::{Loaded, load_with_film};
 use super::options::{On, Options};
 use super::plan::integrator;
+use super::rivals::{PreparedRivals, RivalScenes, RivalSessions, Rivals};
 use super::session::{Prepared, Session};
 use crate::core::error::Result;
 use crate::core::film::Film;
@@ -72,10 +73,11 @@ impl Member<'_> {
 }
 
 impl Ready<'_> {
-    fn begin(&self) -> Result<Working<'_>> {
+    fn begin<'p>(&'p self, rivals: &'p dyn Rivals) -> Result<Working<'p>> {
         match self {
             Ready::Device(prepared) => {
-                DeviceBackend::new(prepared).map(|backend| Working::Device(Box::new(backend)))
+                let backend = DeviceBackend::new(prepared)?.with_rivals(rivals);
+                Ok(Working::Device(Box::new(backend)))
             }
             Ready::Oracle(scene) => OracleBackend::new(scene).map(Working::Oracle),
         }
@@ -95,13 +97,13 @@ impl Working<'_> {
 /// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
     let (loaded, film) = load_with_film(scene, options, on)?;
-    let Loaded { gpus, mut packed, doubts, startup, load } = loaded;
+    let Loaded { gpus, mut packed, doubts, rivals, startup, load } = loaded;
     packed.diagnosed = options.diagnosed;
     let texture_lines = packed.texture_lines();
     let nonfinite =
         packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied()).collect();
     let Integration { mut integrated, mut report, device } =
-        integrate(packed, film, options, on, &gpus, progress)?;
+        integrate(packed, rivals, film, options, on, &gpus, progress)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
     report.warnings.splice(..0, doubts);
     let estimates = integrated.estimates.take();
@@ -129,6 +131,7 @@ struct Integration {
 /// Opens the sessions, builds their pipelines and renders.
 fn integrate(
     packed: PackedScene,
+    rivals: RivalScenes,
     film: Film,
     options: &Options,
     on: &[On],
@@ -158,10 +161,12 @@ fn integrate(
         // What their trees and the driver's compiler took, before sums and film take theirs.
         gpu::give_back_host_memory();
     }
+    let rivals = RivalSessions::new(gpus.first(), rivals, options);
+    let rivals = PreparedRivals::new(&rivals);
     let clock = Instant::now();
     let mut backends = Vec::with_capacity(on.len());
     for ready in &prepared {
-        backends.push(ready.begin()?);
+        backends.push(ready.begin(&rivals)?);
     }
     let mut scheduler = Scheduler::new(backends.iter_mut().map(Working::backend).collect())?;
     let integrated = integrator.render(&mut scheduler, film, progress)?;

@@ -1,7 +1,13 @@
-//! Chooses the integrator that renders a packed scene.
+//! Chooses the integrator that renders a packed scene, and renders a prepared one by it.
 
+use super::Report;
+use super::backend::DeviceBackend;
+use super::session::Prepared;
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::Progress;
 use crate::integrators::adaptive::Goal;
-use crate::integrators::{Adaptive, Beam, Cone, Fixed, Integrator};
+use crate::integrators::{Adaptive, Auto, Beam, Cone, Fixed, Integrator};
 use crate::pack::{PackedScene, Schedule};
 use crate::scene::model::Algorithm;
 
@@ -10,12 +16,40 @@ use crate::scene::model::Algorithm;
 pub fn integrator(scene: &PackedScene, goal: Option<Goal>, tells_pixels: bool) -> Box<dyn Integrator> {
     let samples = scene.samples;
     match scene.schedule {
+        Schedule::Batches
+            if let Some(Goal::Seconds(seconds)) = goal
+                && scene.algorithm == Algorithm::Auto
+                && !scene.prefilters() =>
+        {
+            Box::new(Auto { seconds, tells_pixels })
+        }
         Schedule::Batches => {
             let goal = goal.unwrap_or(Goal::Samples(samples));
-            Box::new(Adaptive { goal, tells_pixels })
+            Box::new(Adaptive { goal, tells_pixels, rate: None })
         }
         Schedule::Tiles if scene.beams => Box::new(Beam { samples }),
         Schedule::Tiles if scene.algorithm == Algorithm::Cone => Box::new(Cone { samples }),
         Schedule::Tiles => Box::new(Fixed { samples }),
+    }
+}
+
+impl Prepared<'_, '_> {
+    /// Renders once more. The report's times of loading and compiling are those of the first render.
+    pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
+        self.render_to_goal(None, progress)
+    }
+
+    /// Renders as [`Prepared::render`] does; a scene that is sampled by batches ends at `goal`, by default its number
+    /// of samples.
+    pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
+        let [width, height] = self.scene.header.film_size.to_array();
+        let mut backend = DeviceBackend::new(self)?;
+        let integrated = integrator(&self.scene, goal, false).render(
+            &mut backend,
+            Film::new(width, height, 0),
+            progress,
+        )?;
+        let mut report = backend.finish()?;
+        Ok((report.take(integrated), report))
     }
 }

@@ -71,15 +71,18 @@ pub struct Prepared<'s, 'a> {
     pub(super) report: Report,
 }
 
+/// The pass that renders whole tiles, and its film.
+pub(super) struct TilePass<'a> {
+    pub(super) renderer: TileRenderer<'a>,
+    pub(super) film: Arc<FilmBuffer>,
+}
+
 /// The way in which samples reach the film.
 pub(super) enum Work<'a> {
-    Tiles {
-        renderer: TileRenderer<'a>,
-        film: Arc<FilmBuffer>,
-    },
+    Tiles(Arc<TilePass<'a>>),
     Batches(SamplePipeline),
     /// The second field is the pipeline for pixels that beams cannot resolve, built on first use.
-    Beams(BeamPass<'a>, OnceLock<SamplePipeline>),
+    Beams(Box<BeamPass<'a>>, OnceLock<SamplePipeline>),
 }
 
 impl<'a> Session<'a> {
@@ -159,11 +162,13 @@ impl<'a> Session<'a> {
             let _ = self.tile_culling.set(tile_culling);
         }
         let work = match scene.schedule {
-            Schedule::Tiles if scene.beams => Work::Beams(self.beam_pass(scene, features)?, OnceLock::new()),
+            Schedule::Tiles if scene.beams => {
+                Work::Beams(Box::new(self.beam_pass(scene, features)?), OnceLock::new())
+            }
             Schedule::Tiles => {
                 let (renderer, film) =
                     self.renderer(scene, &features, shader_for(scene.algorithm, &features)?)?;
-                Work::Tiles { renderer, film }
+                Work::Tiles(Arc::new(TilePass { renderer, film }))
             }
             Schedule::Batches => Work::Batches(self.sample_pipeline(scene, &features)?),
         };
@@ -247,6 +252,16 @@ impl<'a> Session<'a> {
         self.beam_pass(&scene, features).map(Some)
     }
 
+    /// Builds the pass that renders whole tiles of a scene that is packed for batches, in blocks of as many samples as a
+    /// thread takes at once.
+    pub(super) fn tiles_beside_batches(&self, scene: &PackedScene) -> Result<TilePass<'a>> {
+        let scene =
+            PackedScene { schedule: Schedule::Tiles, samples: scene.samples_at_once, ..scene.clone() };
+        let features = self.features_of(&scene);
+        let (renderer, film) = self.renderer(&scene, &features, shader_for(scene.algorithm, &features)?)?;
+        Ok(TilePass { renderer, film })
+    }
+
     fn beam_pass(&self, scene: &PackedScene, features: Features) -> Result<BeamPass<'a>> {
         let features = Features { compensated: false, ..features };
         let shader = shaders::BEAM_FAMILY.shader(TexelSource::None, features.records())?;
@@ -305,7 +320,7 @@ impl Prepared<'_, '_> {
     fn warm_up(&self) -> Result<()> {
         match &self.work {
             // The renderer has done so.
-            Work::Tiles { .. } | Work::Beams(..) => Ok(()),
+            Work::Tiles(_) | Work::Beams(..) => Ok(()),
             Work::Batches(pipeline) => self.sampler(pipeline)?.warm_up(),
         }
     }

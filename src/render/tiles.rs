@@ -1,6 +1,7 @@
 //! Renders the tiles of a band on a device, in slices as long as the plan allows. Input: a pipeline with its bindings,
 //! and a range of samples. Output: sums in the film's buffer.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::Report;
@@ -68,10 +69,22 @@ impl TileRenderer<'_> {
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
+        self.range(band, 0..count, plan, report, progress)
+    }
+
+    /// Renders some tiles of a band, by their places in tile order.
+    pub fn range(
+        &self,
+        band: &Band,
+        range: Range<u32>,
+        plan: &mut DispatchPlan,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
         for (first_sample, sample_count) in plan.blocks() {
-            let mut first_tile = 0;
-            while first_tile < count {
-                let tiles = plan.tiles(count - first_tile, sample_count);
+            let mut first_tile = range.start;
+            while first_tile < range.end {
+                let tiles = plan.tiles(range.end - first_tile, sample_count);
                 let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
                 let groups = [self.groups_per_tile, tiles, 1];
                 let seconds = self.run(&slice, groups, report)?;

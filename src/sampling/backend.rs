@@ -5,12 +5,18 @@
 use std::sync::LazyLock;
 use std::time::Instant;
 
-use super::{FilmSums, Pixels};
-use crate::core::error::Result;
+use super::{Candidate, FilmSums, Made, Pixels};
+use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
 use crate::schema::layout::PixelBatch;
+
+/// Returns the wall-clock seconds since a fixed moment.
+pub fn wall_seconds() -> f64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed().as_secs_f64()
+}
 
 /// A source of samples of one scene.
 pub trait Backend: Send {
@@ -23,8 +29,7 @@ pub trait Backend: Send {
     /// Returns the seconds since a fixed moment, by the clock that decides how sampling to a goal goes on. A backend of a
     /// test has one of its own, so that its passes are the same on a busy machine.
     fn seconds(&self) -> f64 {
-        static START: LazyLock<Instant> = LazyLock::new(Instant::now);
-        START.elapsed().as_secs_f64()
+        wall_seconds()
     }
 
     /// Returns the smallest share of a texture, an environment or the like that is far brighter than the rest and still
@@ -51,6 +56,39 @@ pub trait Backend: Send {
 
     /// Resolves a part of the picture to measure the time that it takes; `None` if pixels cannot be resolved.
     fn pilot(&mut self, progress: &dyn Progress) -> Result<Option<PilotRun>>;
+
+    /// Measures the seconds that a picture of `samples` samples a pixel by a candidate would take, on a part of it; `None`
+    /// if the backend does not have the candidate.
+    fn cost(
+        &mut self,
+        _candidate: Candidate,
+        _samples: u32,
+        _progress: &dyn Progress,
+    ) -> Result<Option<f64>> {
+        Ok(None)
+    }
+
+    /// Takes samples as [`Backend::sample_apart`] does, of a prefiltered picture; `None` if the backend has none.
+    fn prefiltered_apart(
+        &mut self,
+        _batches: &[PixelBatch],
+        _progress: &dyn Progress,
+    ) -> Result<Option<Vec<[f32; 4]>>> {
+        Ok(None)
+    }
+
+    /// Renders the whole picture by a candidate whose cost was measured, into a film: with `samples` samples a pixel, and
+    /// more while `seconds` have not passed, if that makes it better.
+    fn render_by(
+        &mut self,
+        candidate: Candidate,
+        _samples: u32,
+        _seconds: f64,
+        _film: &mut Film,
+        _progress: &dyn Progress,
+    ) -> Result<Made> {
+        Err(Error::new(format!("{} cannot render by {candidate:?}", self.name())))
+    }
 
     /// Adds the samples of each batch to its pixel in its half. No two batches of a call share pixel and half.
     fn sample(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<()>;

@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::backend::batches_of_all;
-use super::{Backend, FilmSums, HalfSums, PilotRun, Pixels};
+use super::{Backend, Candidate, FilmSums, HalfSums, Made, PilotRun, Pixels};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
@@ -161,6 +161,33 @@ impl Backend for Scheduler<'_> {
         let Some(runs) = runs else { return Ok(None) };
         let seconds = runs.iter().map(|run| run.seconds).fold(0.0, f64::max) / members;
         Ok(runs.into_iter().next().map(|run| PilotRun { seconds, ..run }))
+    }
+
+    fn cost(&mut self, candidate: Candidate, samples: u32, progress: &dyn Progress) -> Result<Option<f64>> {
+        match self.members.as_mut_slice() {
+            [member] => member.cost(candidate, samples, progress),
+            // Strips of several are not rendered at once by a candidate.
+            _ => Ok(None),
+        }
+    }
+
+    fn prefiltered_apart(
+        &mut self,
+        batches: &[PixelBatch],
+        progress: &dyn Progress,
+    ) -> Result<Option<Vec<[f32; 4]>>> {
+        self.members[0].prefiltered_apart(batches, progress)
+    }
+
+    fn render_by(
+        &mut self,
+        candidate: Candidate,
+        samples: u32,
+        seconds: f64,
+        film: &mut Film,
+        progress: &dyn Progress,
+    ) -> Result<Made> {
+        self.members[0].render_by(candidate, samples, seconds, film, progress)
     }
 
     fn sample(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<()> {

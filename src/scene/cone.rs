@@ -53,7 +53,8 @@ pub fn freeze_time(scene: &Scene) -> Scene {
     settled
 }
 
-fn adapt_sampler(sampler: &mut SamplerSpec) -> bool {
+/// Replaces a minification filter that does not depend on a footprint, unless the sampler names levels of its own.
+pub(super) fn adapt_sampler(sampler: &mut SamplerSpec) -> bool {
     if sampler.needs_footprint() || sampler.min.only_minifies() {
         return false;
     }

@@ -17,6 +17,7 @@ mod mapping;
 mod material;
 pub mod model;
 mod pixel_filter;
+pub mod prefiltered;
 pub mod prune;
 mod refusal;
 mod sampling;

@@ -2,6 +2,7 @@
 //! the requested error is reached, and that adaptively placed samples reduce the error further than
 //! uniform ones.
 
+mod chosen;
 mod clocked;
 mod rare;
 mod twins;
@@ -103,9 +104,15 @@ fn device_and_oracle_spend_the_same_samples() {
     let (film, outcome) = to_goal(&scene, Goal::Samples(64), false);
     let mut backend = OracleBackend::new(&scene).unwrap();
     let size = [scene.header.film_size.x, scene.header.film_size.y];
-    let run =
-        adaptive::run(&mut backend, Film::new(size[0], size[1], 0), Goal::Samples(64), false, &NoProgress)
-            .unwrap();
+    let run = adaptive::run(
+        &mut backend,
+        Film::new(size[0], size[1], 0),
+        Goal::Samples(64),
+        false,
+        None,
+        &NoProgress,
+    )
+    .unwrap();
     let (exact, expected) = (run.film, run.outcome);
     // Counts follow estimates in f32: one pixel in a hundred may round differently.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");
@@ -272,7 +279,8 @@ fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
     const SIZE: [u32; 2] = [32, 16];
     let sums = HalfSums::new(SIZE);
     let mut slow = Slow { sums, seconds: 0.0, tells, prefilters };
-    let run = adaptive::run(&mut slow, Film::new(SIZE[0], SIZE[1], 0), goal, false, &NoProgress).unwrap();
+    let run =
+        adaptive::run(&mut slow, Film::new(SIZE[0], SIZE[1], 0), goal, false, None, &NoProgress).unwrap();
     (run.film, run.outcome)
 }
 

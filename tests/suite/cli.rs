@@ -172,9 +172,9 @@ fn goals_choose_an_algorithm_and_say_what_was_reached() {
     let told = json("s2", &["--size", "64x64", "--budget", "0.5"]);
     let reached = &told["reached"];
     assert!(reached["mean_samples"].as_f64().unwrap() > 2.0 || reached["reached"] == false, "{told:#}");
-    // Two samples per pixel take longer than that on any device.
+    // One sample per pixel takes longer than that on any device, and is the least that can be done.
     let told = json("s2", &["--size", "64x64", "--budget", "1e-6"]);
-    assert_eq!((&told["reached"]["reached"], &told["reached"]["mean_samples"]), (&false.into(), &2.0.into()));
+    assert_eq!((&told["reached"]["reached"], &told["reached"]["mean_samples"]), (&false.into(), &1.0.into()));
     assert!(json("s2", &["--size", "8x8"])["reached"].is_null());
 }
 

@@ -7,12 +7,16 @@ use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::sampling::{PilotRun, Pixels};
 
-/// Seconds of sampling that must remain for a pilot run to be worth compiling its pipeline.
+/// Seconds of sampling that must remain for a pilot run to be worth compiling its pipeline; and with a time as the goal,
+/// of which compiling takes none, to be worth the run.
 const WORTH_A_PILOT: f64 = 1.0;
-/// Passes before the remaining time can be predicted: a single one does not show how the error falls.
+const WORTH_A_PILOT_OF_TIME: f64 = 0.3;
+/// Passes before the time until an error can be predicted: a single one does not show how the error falls.
 const PASSES: u32 = 2;
-/// Ratio of the time that resolving may take to the pilot run's prediction: parts of a picture differ.
+/// Ratio of the time that resolving may take to the pilot run's prediction: parts of a picture differ. Small parts take
+/// longer than they should, so that less is enough to keep within a time.
 const MARGIN: f64 = 1.5;
+const MARGIN_OF_TIME: f64 = 1.3;
 /// RMSE of pixels resolved by beams. A goal of less than twice this value is left to samples.
 pub const OWN_ERROR: f64 = 5e-5;
 
@@ -42,7 +46,11 @@ impl Outlook {
 
     fn is_worth_a_pilot(&self) -> bool {
         let far_enough = !matches!(self.goal, Goal::Error(rmse) if rmse < 2.0 * OWN_ERROR);
-        far_enough && self.passes >= PASSES && self.left > WORTH_A_PILOT
+        let (passes, worth) = match self.goal {
+            Goal::Seconds(_) => (1, WORTH_A_PILOT_OF_TIME),
+            _ => (PASSES, WORTH_A_PILOT),
+        };
+        far_enough && self.passes >= passes && self.left > worth
     }
 
     /// Returns true if resolving pixels and sampling the others reaches the goal sooner, or comes nearer to it. `cost`
@@ -89,7 +97,8 @@ impl Resolution {
         }
         let Some(Some(pilot)) = &self.pilot else { return Ok(false) };
         let [cost, error] = pixels.shares(pilot, outlook.exponent)?;
-        if !outlook.gains(MARGIN * pilot.seconds, cost, error) {
+        let margin = if let Goal::Seconds(_) = outlook.goal { MARGIN_OF_TIME } else { MARGIN };
+        if !outlook.gains(margin * pilot.seconds, cost, error) {
             return Ok(false);
         }
         let resolved = pixels.backend().resolve(whole, progress)?;

@@ -21,7 +21,7 @@ use serde::Serialize;
 
 use crate::schema::constants::{COUNT_OCTAVES, MAX_HALF_SAMPLES};
 
-pub use audit::{CONFIDENCE, sample_drawn};
+pub use audit::{CONFIDENCE, DEVIATE, sample_drawn};
 pub use draws::{DrawRates, DrawSums, first_draw};
 pub use host_pixels::HostPixels;
 pub use resolved::shares;
@@ -29,6 +29,9 @@ pub use run::{Run, run};
 
 /// Most samples of a half: f32 sums of this many are still accurate enough.
 const MAX_COUNT: u32 = MAX_HALF_SAMPLES;
+
+/// A time limit counts as met if it is exceeded by no more than this factor.
+const KEPT: f64 = 1.05;
 
 /// The condition that ends the sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +42,28 @@ pub enum Goal {
     Error(f64),
     /// Wall-clock seconds of sampling.
     Seconds(f64),
+}
+
+impl Goal {
+    /// Returns true if a time limit counts as met.
+    pub fn is_kept(limit: f64, seconds: f64) -> bool {
+        seconds <= KEPT * limit
+    }
+}
+
+/// How the picture was made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Chosen {
+    /// Samples placed pixel by pixel, and beams for pixels that they resolved.
+    #[default]
+    Adaptive,
+    /// The same number of samples in each pixel.
+    Samples,
+    /// One prefiltered sample in the centre of each pixel.
+    Prefiltered,
+    /// One cone a pixel.
+    Cone,
 }
 
 /// Counts are classified by their octave.
@@ -53,13 +78,15 @@ fn octave(count: u32) -> usize {
 pub struct PixelEstimates {
     /// Samples of both halves.
     pub samples: Vec<u32>,
-    /// Errors by which the next samples would have been placed, as RMS of the channels; 0 for pixels that beams resolved.
+    /// Errors by which the next samples would have been placed, as RMS of the channels; 0 for pixels that beams resolved;
+    /// where none was to be placed, the picture's for all.
     pub errors: Vec<f32>,
 }
 
 /// The result of sampling to a goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Outcome {
+    pub chosen: Chosen,
     /// RMSE of noise and bias: by the audit, and at least the difference of the halves.
     pub estimated_rmse: f64,
     /// Bounds of the RMSE by the audit, at the probability `confidence`; `None` without an audit.

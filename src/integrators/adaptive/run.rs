@@ -22,12 +22,15 @@ const FIRST_OF_BRIGHT: f64 = 4.0;
 /// Most samples of the first pass, per pixel and in the whole picture.
 const MAX_FIRST: f64 = 1024.0;
 const MAX_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
-/// Fraction of the remaining time for which a pass is planned.
+/// Fraction of the remaining time for which a pass is planned; for the first passes less, as samples that are placed for
+/// the first time take longer.
 const OF_TIME: f64 = 0.85;
+const OF_TIME_AT_FIRST: f64 = 0.6;
+const FIRST_PASSES: u32 = 2;
+/// Fraction of the whole time that a first pass may take if the rate is known.
+const OF_FIRST: f64 = 0.4;
 /// Fraction of the whole time that is reserved for the last audit.
 const AUDIT_TIME: f64 = 0.08;
-/// A time limit counts as met if it is exceeded by no more than this factor.
-const KEPT: f64 = 1.05;
 /// A goal is met if the audit's estimate is below it and the interval ends below this multiple of it.
 const SURE: f64 = 1.25;
 /// Audits that may refuse the goal, each with more samples, before it counts as out of reach.
@@ -41,21 +44,23 @@ pub struct Run {
     pub estimates: Option<PixelEstimates>,
 }
 
-/// Samples until the goal is met, into a black film. Audits do not change it. `tells_pixels` asks for the estimates of single pixels.
+/// Samples until the goal is met, into a black film. Audits do not change it. `tells_pixels` asks for the estimates of single pixels;
+/// `rate` is the number of samples per second, if that is known.
 pub fn run(
     backend: &mut dyn Backend,
     film: Film,
     goal: Goal,
     tells_pixels: bool,
+    rate: Option<f64>,
     progress: &dyn Progress,
 ) -> Result<Run> {
     if backend.keeps_pixels()
         && let Some(mut pixels) = backend.kept_pixels()?
     {
-        return passes(&mut *pixels, film, goal, tells_pixels, progress);
+        return passes(&mut *pixels, film, goal, tells_pixels, rate, progress);
     }
     let size = [film.width, film.height];
-    passes(&mut HostPixels::new(backend, size), film, goal, tells_pixels, progress)
+    passes(&mut HostPixels::new(backend, size), film, goal, tells_pixels, rate, progress)
 }
 
 fn passes(
@@ -63,6 +68,7 @@ fn passes(
     mut film: Film,
     goal: Goal,
     tells_pixels: bool,
+    rate: Option<f64>,
     progress: &dyn Progress,
 ) -> Result<Run> {
     let start = pixels.backend().seconds();
@@ -71,7 +77,7 @@ fn passes(
     let (bright_share, prefilters) = (pixels.backend().bright_share(), pixels.backend().prefilters());
     let bright = bright_share < 1.0;
     let first = first_count(goal, bright_share, number);
-    pixels.plan_first(if let Goal::Seconds(_) = goal { 1 } else { first })?;
+    pixels.plan_first(first_of_time(goal, rate, number).min(first))?;
     let mut is_planned = true;
     let mut outcome = Outcome { confidence: CONFIDENCE, ..Outcome::default() };
     let mut before = 0.0;
@@ -103,7 +109,7 @@ fn passes(
             Goal::Error(_) => f64::INFINITY,
             Goal::Seconds(limit) => {
                 let left = limit * (1.0 - AUDIT_TIME) - (now - start) - pace.hosting;
-                taken + pace.rate * left.max(0.0) * OF_TIME
+                taken + pace.rate * left.max(0.0) * of_time(outcome.passes)
             }
         };
         let enough = match goal {
@@ -197,7 +203,7 @@ fn passes(
     outcome.reached = match goal {
         Goal::Samples(_) => true,
         Goal::Error(_) => outcome.reached,
-        Goal::Seconds(limit) => pixels.backend().seconds() - start <= KEPT * limit,
+        Goal::Seconds(limit) => Goal::is_kept(limit, pixels.backend().seconds() - start),
     };
     film.samples = outcome.mean_samples.round() as u32;
     pixels.write_to(&mut film)?;
@@ -222,10 +228,24 @@ impl Outcome {
     }
 }
 
+fn of_time(passes: u32) -> f64 {
+    if passes < FIRST_PASSES { OF_TIME_AT_FIRST } else { OF_TIME }
+}
+
 /// Returns the largest factor by which a pixel's count grows from one pass to the next, as its variance is only roughly
 /// known. With a fixed number of samples each one counts; otherwise fewer passes are better.
 fn growth(goal: Goal) -> f64 {
     if let Goal::Samples(_) = goal { 8.0 } else { 16.0 }
+}
+
+/// Returns the most samples of each half in a first pass that leaves most of the time to the next ones. A time limit
+/// begins with one sample in each half, to measure the rate, unless that is known.
+fn first_of_time(goal: Goal, rate: Option<f64>, pixels: f64) -> u32 {
+    match (goal, rate) {
+        (Goal::Seconds(limit), Some(rate)) => (OF_FIRST * rate * limit / (2.0 * pixels)).max(1.0) as u32,
+        (Goal::Seconds(_), None) => 1,
+        _ => u32::MAX,
+    }
 }
 
 /// Returns the samples of each half before anything is known about the pixels.

@@ -135,9 +135,15 @@ fn by_jobs(bench: &Bench<'_>, decades: f64) -> Result<Vec<Point>> {
         let scene =
             packed(&textured("random", "adaptive", spp, "linear"), vec![noise_texture(decades)], None)?;
         let goal = Goal::Samples(spp);
-        let exact =
-            adaptive::run(&mut OracleBackend::new(&scene)?, Film::new(1, 1, 0), goal, false, bench.progress)?
-                .film;
+        let exact = adaptive::run(
+            &mut OracleBackend::new(&scene)?,
+            Film::new(1, 1, 0),
+            goal,
+            false,
+            None,
+            bench.progress,
+        )?
+        .film;
         Ok(point(spp, &on_device(bench, &scene)?, exact.pixels[0].map(f64::from)))
     };
     job_counts().map(run).collect()

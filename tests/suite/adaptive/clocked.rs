@@ -39,7 +39,8 @@ pub fn render(scene: &PackedScene, goal: Goal, keep_everything: bool, sample_sec
     let pixels = Rect::whole(size).area();
     let device = DeviceBackend::new(&prepared).unwrap();
     let mut clocked = Clocked { device, pixels, sample_seconds, seconds: 0.0 };
-    let run = adaptive::run(&mut clocked, Film::new(size[0], size[1], 0), goal, false, &NoProgress).unwrap();
+    let run =
+        adaptive::run(&mut clocked, Film::new(size[0], size[1], 0), goal, false, None, &NoProgress).unwrap();
     let (film, outcome) = (run.film, run.outcome);
     let seconds = clocked.seconds;
     clocked.device.finish().unwrap();

@@ -125,6 +125,7 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
                 moire::internal::core::film::Film::new(width, height, 0),
                 Goal::Samples(2),
                 false,
+                None,
                 &NoProgress,
             )
             .unwrap()
