@@ -15,7 +15,7 @@ Place sample_place(const Header header, const Points points, uint s) {
     return filtered_place(header, position);
 }
 
-// `dimensions`: of the sample, where there are more than its place. `sign`: of its weight.
+// `dimensions`: of the sample, its place among them. `sign`: of its weight.
 Path camera_sample(const Header header, uvec2 pixel, PixelCorner corner, uvec2 key, const Points points, uint s,
                    const SampleDimensions dimensions, const Candidates candidates, out float sign) {
     uvec2 position = dimensions.place;

@@ -77,6 +77,7 @@ void render_as_team(const Header header) {
         }
         uvec2 key = pixel_key(pixel, header.seed, header.shares_pattern);
         Points points = pixel_points(header, pixel, key);
+        PixelCorner of_pixel = pixel_corner(header, pixel);
 
         // Of the first thread of each pixel.
         vec3 sum = vec3(0.0);
@@ -88,8 +89,9 @@ void render_as_team(const Header header) {
             uint s = start + turn;
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, 0u, true);
+            else dimensions.place = sample_point(points, s, false);
             float sign;
-            Path path = camera_sample(header, pixel, pixel_corner(header, pixel), key, points, s, dimensions, candidates, sign);
+            Path path = camera_sample(header, pixel, of_pixel, key, points, s, dimensions, candidates, sign);
             if (TEAMED) {
                 team_nearest = FAR;
                 team_found = NO_SHAPE;
