@@ -17,10 +17,22 @@ uint schedule() { return OPAQUE(slice.schedule); }
 uint first_sample() { return OPAQUE(slice.first_sample); }
 uint sample_count() { return OPAQUE(slice.sample_count); }
 
+// Returns the tile of a place in tile order: place · stride modulo the number of tiles. CPU devices divide integers lane by
+// lane, so it is a quotient in floats, which is off by one at most.
+uint tile_at(uint place) {
+    uint times = uint(float(place) * (float(slice.tile_stride) / float(slice.tiles)));
+    int rest = int(place * slice.tile_stride - times * slice.tiles);
+    rest += rest < 0 ? int(slice.tiles) : 0;
+    rest -= rest >= int(slice.tiles) ? int(slice.tiles) : 0;
+    return uint(rest);
+}
+
 // Returns the pixel of the film. Workgroups of a tile follow each other in x, tiles in y.
 uvec2 film_pixel() {
-    uint tile = ((slice.first_tile + gl_WorkGroupID.y) * slice.tile_stride) % slice.tiles;
-    uvec2 origin = uvec2(tile % slice.tiles_x, tile / slice.tiles_x) * TILE;
+    uint tile = tile_at(slice.first_tile + gl_WorkGroupID.y);
+    // In the middle of a tile's share, which no rounding moves to another row.
+    uint row = uint((float(tile) + 0.5) / float(slice.tiles_x));
+    uvec2 origin = uvec2(tile - row * slice.tiles_x, row) * TILE;
     uint across = TILE / gl_WorkGroupSize.x;
     uvec2 group = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across);
     return origin + group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;

@@ -16,7 +16,7 @@ use crate::sampling::PilotRun;
 /// Tiles of the first slice: a beam takes as long as many samples.
 const FIRST_TILES: f64 = 2.0;
 /// A pilot run renders one of this many tiles, taken from the start of the tile order, whose neighbours are far apart.
-const PILOT_PART: u32 = 8;
+const PILOT_PART: u32 = 16;
 
 /// The pass that resolves pixels by beams.
 pub struct BeamPass<'a> {

@@ -16,7 +16,7 @@ const PASSES: u32 = 2;
 /// Ratio of the time that resolving may take to the pilot run's prediction: parts of a picture differ. Small parts take
 /// longer than they should, so that less is enough to keep within a time.
 const MARGIN: f64 = 1.5;
-const MARGIN_OF_TIME: f64 = 1.3;
+const MARGIN_OF_TIME: f64 = 1.15;
 /// RMSE of pixels resolved by beams. A goal of less than twice this value is left to samples.
 pub const OWN_ERROR: f64 = 5e-5;
 
