@@ -15,8 +15,10 @@ use crate::sampling::PilotRun;
 
 /// Tiles of the first slice: a beam takes as long as many samples.
 const FIRST_TILES: f64 = 2.0;
-/// A pilot run renders one of this many tiles, taken from the start of the tile order, whose neighbours are far apart.
+/// A pilot run renders one of this many tiles, and at least some, taken from the start of the tile order, whose neighbours
+/// are far apart.
 const PILOT_PART: u32 = 16;
+const MIN_PILOT_TILES: u32 = 4;
 
 /// The pass that resolves pixels by beams.
 pub struct BeamPass<'a> {
@@ -40,7 +42,7 @@ impl BeamPass<'_> {
     pub fn pilot(&self, report: &mut Report, progress: &dyn Progress) -> Result<PilotRun> {
         let whole = self.film.whole();
         let Some(band) = self.film.bands(whole).next() else { return Ok(PilotRun::default()) };
-        let tiles = band.tiles.div_ceil(PILOT_PART);
+        let tiles = band.tiles.div_ceil(PILOT_PART).max(MIN_PILOT_TILES).min(band.tiles);
         let mut plan = DispatchPlan::new(FIRST_TILES, 0..1, 1, tiles.into());
         let clock = Instant::now();
         self.renderer.tiles(&band, tiles, &mut plan, report, progress)?;

@@ -26,6 +26,8 @@ const COST_TIME: f64 = 0.08;
 const COSTS: [f64; 2] = [8.0, 32.0];
 /// A time of fewer pictures of few samples than this is too short for a second cost.
 const SHORT: f64 = 4.0;
+/// Largest fraction of the time that the first trials may take for others to follow.
+const MAX_TRIAL: f64 = 0.2;
 /// From this time on, samples placed pixel by pixel, or beams, were the best choice on all scenes that were measured.
 const PLACED_FROM: f64 = 0.5;
 /// Fraction of the whole time for which pixels are sampled apart at first, and the time of one of their samples over that
@@ -65,6 +67,10 @@ impl Integrator for Auto {
         let Some(costs) = costs(backend, self.seconds, progress)? else {
             return self.adaptive(self.seconds, None, backend, film, progress);
         };
+        // A device that keeps the pixels places samples in less time than further trials take.
+        if backend.keeps_pixels() && self.seconds - clock.left(backend) > MAX_TRIAL * self.seconds {
+            return self.adaptive(clock.left(backend), None, backend, film, progress);
+        }
         let pixels = film.pixels.len() as f64;
         let number = PILOT_TIME * self.seconds * pixels
             / (PILOT_COST * f64::from(2 * MANY + FEW) * costs.each().max(1e-12));
