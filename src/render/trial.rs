@@ -23,8 +23,16 @@ const MIN_TILES: u32 = 2;
 const MAX_OVERHEAD: f64 = 0.7;
 /// Most samples a pixel: f32 sums of this many are still accurate enough.
 const MAX_SAMPLES: u32 = 1 << 16;
-/// More samples are worth a further pass if they are at least this share of those that were taken.
-const WORTH_MORE: f64 = 0.05;
+/// More samples are worth a further pass, which sets up all pixels again, if they are at least this share of those that were
+/// taken.
+const WORTH_MORE: f64 = 0.08;
+
+/// Returns the largest number up to this one with four significant bits: the points of a net in base 2 are spread
+/// the more evenly the more zeros their number ends with.
+fn even_count(samples: u32) -> u32 {
+    let unit = 1 << samples.max(8).ilog2().saturating_sub(3);
+    samples - samples % unit
+}
 
 impl<'p> DeviceBackend<'p> {
     /// Returns the backend of a candidate that has a session of its own.
@@ -161,7 +169,7 @@ impl<'p> DeviceBackend<'p> {
         let pass = self.tiles()?;
         let gpu = self.prepared.session.gpu;
         let whole = pass.film.whole();
-        let (mut made, mut taken) = (Made::default(), 0);
+        let (samples, mut made, mut taken) = (even_count(samples), Made::default(), 0);
         for (index, band) in pass.film.bands(whole).enumerate() {
             if index > 0 {
                 // As many as the first one.
@@ -174,7 +182,8 @@ impl<'p> DeviceBackend<'p> {
                     taken += more;
                     let left = seconds * share - begun.elapsed().as_secs_f64();
                     let fits = (left * f64::from(more) / took.max(1e-9)).max(0.0) as u32;
-                    let fits = fits.min(MAX_SAMPLES.saturating_sub(taken));
+                    let fits =
+                        even_count(taken + fits.min(MAX_SAMPLES.saturating_sub(taken))).saturating_sub(taken);
                     more = if f64::from(fits) < WORTH_MORE * f64::from(taken) { 0 } else { fits };
                 }
             }
@@ -199,5 +208,16 @@ impl<'p> DeviceBackend<'p> {
         pass.renderer.range(band, tiles, &mut plan, &mut self.report, progress)?;
         self.next = plan.next();
         Ok(clock.elapsed().as_secs_f64())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::even_count;
+
+    #[test]
+    fn counts_are_rounded_down_to_four_significant_bits() {
+        let counts = [1, 7, 15, 17, 38, 41, 213, 1000].map(even_count);
+        assert_eq!(counts, [1, 7, 15, 16, 36, 40, 208, 960]);
     }
 }

@@ -32,7 +32,7 @@ const MAX_TRIAL: f64 = 0.2;
 const PLACED_FROM: f64 = 0.5;
 /// Fraction of the whole time for which pixels are sampled apart at first, and the time of one of their samples over that
 /// of one among neighbours.
-const PILOT_TIME: f64 = 0.05;
+const PILOT_TIME: f64 = 0.02;
 const PILOT_COST: f64 = 4.0;
 /// Most samples of each mean by which a picture's error is measured: more pixels tell more.
 const MAX_AUDIT: u32 = 32;
