@@ -104,6 +104,24 @@ mod tests {
         }
     }
 
+    /// `glsl/shared/slice.glsl`, whose quotients may err by 2.5 ulp (Vulkan 1.3, "Precision of core SPIR-V Instructions").
+    #[test]
+    fn the_shaders_tile_is_the_remainder_and_its_row_the_quotient_however_floats_round() {
+        const ERRORS: [f32; 3] = [1.0 - 3.0 * f32::EPSILON, 1.0, 1.0 + 3.0 * f32::EPSILON];
+        for tiles in (1..300_u32).chain([4095, 4096, 65_535, 65_536]) {
+            let (stride, across) = (tile_stride(tiles), tiles.isqrt());
+            for (place, error) in (0..tiles).flat_map(|place| ERRORS.map(|error| (place, error))) {
+                let times = (place as f32 * (stride as f32 / tiles as f32 * error)) as u32;
+                let mut rest = place.wrapping_mul(stride).wrapping_sub(times.wrapping_mul(tiles)) as i32;
+                rest += if rest < 0 { tiles as i32 } else { 0 };
+                rest -= if rest >= tiles as i32 { tiles as i32 } else { 0 };
+                assert_eq!(rest as u32, place * stride % tiles, "{place} of {tiles}");
+                let row = ((place as f32 + 0.5) / across as f32 * error) as u32;
+                assert_eq!(row, place / across, "{place} of {tiles}");
+            }
+        }
+    }
+
     #[test]
     fn blocks_cover_all_samples_in_order() {
         for (samples, block) in [1, 255, 256, 257, 1000, 65_536].into_iter().zip([256, 256, 7, 256, 1, 256]) {

@@ -7,6 +7,7 @@ use super::options::Options;
 use super::session::{Prepared, Session};
 use crate::core::error::Result;
 use crate::gpu::Gpu;
+use crate::integrators::Auto;
 use crate::integrators::adaptive::Goal;
 use crate::pack;
 use crate::sampling::Candidate;
@@ -32,7 +33,7 @@ impl RivalScenes {
     pub(super) fn of(scene: &Scene, options: &Options) -> RivalScenes {
         let is_free =
             scene.sampling.algorithm == Algorithm::Auto && scene.sampling.footprint == Footprint::None;
-        if !is_free || !matches!(options.goal, Some(Goal::Seconds(_))) {
+        if !is_free || !matches!(options.goal, Some(Goal::Seconds(seconds)) if Auto::tries_others(seconds)) {
             return RivalScenes::default();
         }
         let scenes = [

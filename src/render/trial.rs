@@ -29,7 +29,7 @@ const WORTH_MORE: f64 = 0.08;
 
 /// Returns the largest number up to this one with four significant bits: the points of a net in base 2 are spread
 /// the more evenly the more zeros their number ends with.
-fn even_count(samples: u32) -> u32 {
+fn rounded_down(samples: u32) -> u32 {
     let unit = 1 << samples.max(8).ilog2().saturating_sub(3);
     samples - samples % unit
 }
@@ -126,7 +126,8 @@ impl<'p> DeviceBackend<'p> {
         Ok(sums)
     }
 
-    /// Measures some tiles of the first band, which are neighbours in tile order and lie far apart; returns the seconds of the whole picture.
+    /// Measures some tiles of the first band, which are neighbours in tile order and lie far apart; returns the seconds of
+    /// the whole picture.
     fn part(&mut self, samples: u32, progress: &dyn Progress) -> Result<f64> {
         let pass = self.tiles()?;
         let film = &pass.film;
@@ -169,7 +170,7 @@ impl<'p> DeviceBackend<'p> {
         let pass = self.tiles()?;
         let gpu = self.prepared.session.gpu;
         let whole = pass.film.whole();
-        let (samples, mut made, mut taken) = (even_count(samples), Made::default(), 0);
+        let (samples, mut made, mut taken) = (rounded_down(samples), Made::default(), 0);
         for (index, band) in pass.film.bands(whole).enumerate() {
             if index > 0 {
                 // As many as the first one.
@@ -182,8 +183,8 @@ impl<'p> DeviceBackend<'p> {
                     taken += more;
                     let left = seconds * share - begun.elapsed().as_secs_f64();
                     let fits = (left * f64::from(more) / took.max(1e-9)).max(0.0) as u32;
-                    let fits =
-                        even_count(taken + fits.min(MAX_SAMPLES.saturating_sub(taken))).saturating_sub(taken);
+                    let fits = rounded_down(taken + fits.min(MAX_SAMPLES.saturating_sub(taken)))
+                        .saturating_sub(taken);
                     more = if f64::from(fits) < WORTH_MORE * f64::from(taken) { 0 } else { fits };
                 }
             }
@@ -213,11 +214,11 @@ impl<'p> DeviceBackend<'p> {
 
 #[cfg(test)]
 mod tests {
-    use super::even_count;
+    use super::rounded_down;
 
     #[test]
     fn counts_are_rounded_down_to_four_significant_bits() {
-        let counts = [1, 7, 15, 17, 38, 41, 213, 1000].map(even_count);
+        let counts = [1, 7, 15, 17, 38, 41, 213, 1000].map(rounded_down);
         assert_eq!(counts, [1, 7, 15, 16, 36, 40, 208, 960]);
     }
 }

@@ -1,11 +1,8 @@
 //! Ways to make a whole picture at once, of which a backend may have some. Input: none. Output: their names, and what a
 //! picture by one of them has taken.
 
-use serde::Serialize;
-
 /// A way to make a whole picture without counts that differ from pixel to pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Candidate {
     /// The same number of samples in each pixel, without a footprint.
     Samples,

@@ -105,7 +105,7 @@ pub struct AuditPlan {
 /// Variances that an audit found to be too small.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Raises {
-    /// Pixels with the variance of one of their samples: those around each are assumed to vary like it, by a quarter.
+    /// Pixels with the variance of one of their samples: those around each are assumed to vary like it, by a share.
     pub around: Vec<(u32, f32)>,
     /// The least variance of one sample of pixels by the octave of their counts.
     pub floors: Option<Vec<f32>>,

@@ -102,8 +102,8 @@ constants! {
     GOAL_LOWER: u32 = 8;
     GOAL_UPPER: u32 = 9;
     GOAL_COLUMNS: u32 = 10;
-    /// Of a plan: its multiplier, samples in all, and the pixels that gain some; parts of batches; samples of an audit's draws; the pixels of each class, and how many of them
-    /// are listed; the bins.
+    /// Of a plan: its multiplier, samples in all, and the pixels that gain some; parts of batches; samples of an audit's draws;
+    /// the pixels of each class, and how many of them are listed; the bins.
     GOAL_MULTIPLIER: u32 = 16;
     GOAL_PLANNED_SAMPLES: u32 = 17;
     GOAL_GAINING: u32 = 18;

@@ -57,10 +57,17 @@ pub struct Auto {
     pub tells_pixels: bool,
 }
 
+impl Auto {
+    /// Returns true if other ways than samples placed pixel by pixel, and beams, are tried in such a time.
+    pub fn tries_others(seconds: f64) -> bool {
+        seconds < PLACED_FROM
+    }
+}
+
 impl Integrator for Auto {
     fn render(&self, backend: &mut dyn Backend, film: Film, progress: &dyn Progress) -> Result<Integrated> {
         // What is small and bright is looked for by samples pixel by pixel: few trials would miss it.
-        if backend.bright_share() < 1.0 || self.seconds >= PLACED_FROM {
+        if backend.bright_share() < 1.0 || !Auto::tries_others(self.seconds) {
             return self.adaptive(self.seconds, None, backend, film, progress);
         }
         let mut clock = Deadline::new(backend, self.seconds);
@@ -105,20 +112,27 @@ impl Integrator for Auto {
         };
         let seconds = OF_TIME * clock.left(backend);
         let mut film = film;
-        let mut chosen = candidate;
-        let mut made = backend.render_by(candidate, samples, seconds, &mut film, progress)?;
+        let made = backend.render_by(candidate, samples, seconds, &mut film, progress)?;
+        let mut rendered = Rendered { film, by: candidate, made };
         // What was assumed of a shot is known now; another one may be better, and fit into the rest of the time.
         if candidate != Candidate::Samples {
-            let (mse, left) = (pilot.error_in(&film).mse, clock.left(backend));
+            let (mse, left) = (pilot.error_in(&rendered.film).mse, clock.left(backend));
             let others = prospect.shots.iter().filter(|shot| shot.candidate != candidate);
             let better = others.filter(|shot| shot.mse < mse && shot.seconds < left);
             if let Some(shot) = better.min_by(|a, b| a.mse.total_cmp(&b.mse)) {
-                chosen = shot.candidate;
-                made = backend.render_by(chosen, 1, 0.0, &mut film, progress)?;
+                rendered.by = shot.candidate;
+                rendered.made = backend.render_by(shot.candidate, 1, 0.0, &mut rendered.film, progress)?;
             }
         }
-        self.audited(film, chosen, made, &mut pilot, &clock, backend, progress)
+        self.audited(rendered, &mut pilot, &clock, backend, progress)
     }
+}
+
+/// A picture, the way in which it was made, and what that took.
+struct Rendered {
+    film: Film,
+    by: Candidate,
+    made: Made,
 }
 
 /// The time that is left, and how long a sample takes that is taken apart.
@@ -198,17 +212,15 @@ impl Auto {
     }
 
     /// Measures the error of the picture with more samples, if there is time for them.
-    #[allow(clippy::too_many_arguments)]
     fn audited(
         &self,
-        mut film: Film,
-        chosen: Candidate,
-        made: Made,
+        rendered: Rendered,
         pilot: &mut Pilot,
         clock: &Deadline,
         backend: &mut dyn Backend,
         progress: &dyn Progress,
     ) -> Result<Integrated> {
+        let Rendered { mut film, by, made } = rendered;
         film.samples = made.samples;
         let samples = (made.samples / 2).clamp(MANY, MAX_AUDIT);
         let time = clock.left(backend).min(AUDIT_TIME * clock.seconds);
@@ -218,10 +230,10 @@ impl Auto {
         // Less than a deviation cannot be told from none; and few pixels that have most of the error may have missed some.
         let missed = if interval.is_some() { 0.0 } else { deviation };
         let rmse = (mse.max(deviation) + missed).sqrt();
-        let is_noise = chosen == Candidate::Samples;
+        let is_noise = by == Candidate::Samples;
         let pixels = film.pixels.len() as f64;
         let outcome = Outcome {
-            chosen: chosen.into(),
+            chosen: by.into(),
             estimated_rmse: rmse,
             interval,
             confidence: CONFIDENCE,
@@ -240,7 +252,7 @@ impl Auto {
             samples: vec![made.samples; film.pixels.len()],
             errors: vec![rmse as f32; film.pixels.len()],
         });
-        let dropped = (chosen == Candidate::Cone).then_some(made.dropped / pixels);
+        let dropped = (by == Candidate::Cone).then_some(made.dropped / pixels);
         Ok(Integrated { outcome: Some(outcome), estimates, dropped, ..Integrated::from(film) })
     }
 }
