@@ -34,6 +34,14 @@ fn rounded_down(samples: u32) -> u32 {
     samples - samples % unit
 }
 
+/// Returns the tiles of a band on which costs are measured: neighbours in tile order, which lie far apart. Not the first
+/// ones, which are in the corner of the picture; these are in its middle.
+fn trial_tiles(band: &Band) -> Range<u32> {
+    let tiles = band.tiles.div_ceil(PART).max(MIN_TILES).min(band.tiles);
+    let start = (band.tiles - tiles) / 2;
+    start..start + tiles
+}
+
 impl<'p> DeviceBackend<'p> {
     /// Returns the backend of a candidate that has a session of its own.
     pub(super) fn rival(&mut self, candidate: Candidate) -> Result<Option<&mut DeviceBackend<'p>>> {
@@ -54,8 +62,8 @@ impl<'p> DeviceBackend<'p> {
         Ok(self.opened.last_mut().map(|(_, backend)| backend))
     }
 
-    /// Builds what renders whole tiles of a scene that is packed for batches, and runs it once: a pipeline's first
-    /// dispatches take longer.
+    /// Builds what renders whole tiles of a scene that is packed for batches, and runs it once on the tiles of trials: the
+    /// first dispatches of a pipeline, and of a tile, take longer.
     fn build_tiles(&mut self) -> Result<()> {
         if self.is_warm {
             return Ok(());
@@ -68,8 +76,7 @@ impl<'p> DeviceBackend<'p> {
         if let Ok(pass) = self.tiles()
             && let Some(band) = pass.film.bands(pass.film.whole()).next()
         {
-            let middle = band.tiles / 2;
-            self.take(&pass, &band, middle..middle + 1, 0..1, &NoProgress)?;
+            self.take(&pass, &band, trial_tiles(&band), 0..1, &NoProgress)?;
         }
         self.is_warm = true;
         let seconds = clock.elapsed().as_secs_f64();
@@ -126,25 +133,28 @@ impl<'p> DeviceBackend<'p> {
         Ok(sums)
     }
 
-    /// Measures some tiles of the first band, which are neighbours in tile order and lie far apart; returns the seconds of
-    /// the whole picture.
+    /// Measures some tiles of the first band; returns the seconds of the whole picture.
     fn part(&mut self, samples: u32, progress: &dyn Progress) -> Result<f64> {
         let pass = self.tiles()?;
         let film = &pass.film;
         let whole = film.whole();
         let Some(band) = film.bands(whole).next() else { return Ok(0.0) };
-        let tiles = band.tiles.div_ceil(PART).max(MIN_TILES).min(band.tiles);
-        // Not the first ones, which are in the corner of the picture; these are in its middle.
-        let start = (band.tiles - tiles) / 2;
+        let tiles = trial_tiles(&band);
+        let mut seconds = None;
         if self.dispatch.is_none() {
-            let one = self.timed(&pass, &band, start..start + 1, 0..samples, progress)?;
-            let two = self.timed(&pass, &band, start..(start + 2).min(band.tiles), 0..samples, progress)?;
-            self.dispatch = Some((2.0 * one - two).clamp(0.0, MAX_OVERHEAD * one));
+            let two = tiles.start..(tiles.start + 2).min(band.tiles);
+            let one = self.timed(&pass, &band, two.start..two.start + 1, 0..samples, progress)?;
+            let both = self.timed(&pass, &band, two.clone(), 0..samples, progress)?;
+            self.dispatch = Some((2.0 * one - both).clamp(0.0, MAX_OVERHEAD * one));
+            seconds = (two == tiles).then_some(both);
         }
-        let seconds = self.timed(&pass, &band, start..start + tiles, 0..samples, progress)?;
+        let seconds = match seconds {
+            Some(seconds) => seconds,
+            None => self.timed(&pass, &band, tiles.clone(), 0..samples, progress)?,
+        };
         let rendering = (seconds - self.dispatch.unwrap_or(0.0)).max((1.0 - MAX_OVERHEAD) * seconds);
         // Of the tiles at the borders only a part is in the picture.
-        let tiled = f64::from(TILE * TILE) * f64::from(tiles);
+        let tiled = f64::from(TILE * TILE) * tiles.len() as f64;
         Ok(rendering * whole.area() as f64 / tiled.min(whole.area() as f64))
     }
 

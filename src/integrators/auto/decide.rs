@@ -77,14 +77,14 @@ pub enum Decision {
 }
 
 impl Even {
-    /// Fits the model to costs, with at least `least` seconds of the picture, and to the mean squared errors of two numbers
-    /// of samples, the larger one first.
-    pub fn new(costs: Costs, least: f64, samples: [u32; 2], mse: [f64; 2]) -> Even {
+    /// Fits the model to costs, which lack `first` seconds of the picture, and to the mean squared errors of two numbers of
+    /// samples, the larger one first.
+    pub fn new(costs: Costs, first: f64, samples: [u32; 2], mse: [f64; 2]) -> Even {
         let [many, few] = samples.map(f64::from);
         let exponent = (mse[1] / mse[0]).ln() / (many / few).ln();
         let exponent = if exponent.is_finite() { exponent } else { EXPONENTS[0] };
         let each = costs.each();
-        let once = (costs.seconds[0] - each * f64::from(costs.samples[0])).max(least);
+        let once = (costs.seconds[0] - each * f64::from(costs.samples[0])).max(0.0) + first;
         Even { once, each, samples: many, mse: mse[0], exponent: exponent.clamp(EXPONENTS[0], EXPONENTS[1]) }
     }
 
@@ -191,10 +191,10 @@ mod tests {
     #[test]
     fn costs_and_exponents_follow_the_trials_within_bounds() {
         let costs = |seconds| Costs { samples: [8, 2], seconds };
-        let fitted = Even::new(costs([21e-3, 9e-3]), 0.0, [8, 2], [4e-4, 3.2e-3]);
-        assert!((fitted.each - 2e-3).abs() < 1e-9 && (fitted.once - 5e-3).abs() < 1e-9, "{fitted:?}");
+        let fitted = Even::new(costs([21e-3, 9e-3]), 1e-3, [8, 2], [4e-4, 3.2e-3]);
+        assert!((fitted.each - 2e-3).abs() < 1e-9 && (fitted.once - 6e-3).abs() < 1e-9, "{fitted:?}");
         assert!((fitted.exponent - 1.5).abs() < 1e-9, "{fitted:?}");
         let odd = Even::new(costs([8e-3, 16e-3]), 6e-3, [8, 2], [0.0, 0.0]);
-        assert!(odd.each > 0.0 && odd.once == 6e-3 && odd.exponent == EXPONENTS[0], "{odd:?}");
+        assert!(odd.each > 0.0 && (odd.once - 12e-3).abs() < 1e-9 && odd.exponent == EXPONENTS[0], "{odd:?}");
     }
 }

@@ -23,9 +23,7 @@ const FIRST_PART: u32 = 4;
 const MANY_SAMPLES: u32 = 32;
 /// Fraction of the whole time in which the cost of many samples is measured, and least and most of them over few.
 const COST_TIME: f64 = 0.08;
-const COSTS: [f64; 2] = [8.0, 32.0];
-/// A time of fewer pictures of few samples than this is too short for a second cost.
-const SHORT: f64 = 4.0;
+const COSTS: [f64; 2] = [4.0, 32.0];
 /// Largest fraction of the time that the first trials may take for others to follow.
 const MAX_TRIAL: f64 = 0.2;
 /// From this time on, samples placed pixel by pixel, or beams, were the best choice on all scenes that were measured.
@@ -46,8 +44,8 @@ const CONE_ERROR: f64 = 0.85;
 const BEST_PREFILTER: f64 = 1e-3;
 /// Seconds of the host for a pixel in each pass of sampling pixel by pixel, where the device does not keep the pixels.
 const HOST_SECONDS: f64 = 8e-8;
-/// Least seconds for a pixel before its first sample and after its last one, there: parts of a picture hide some of them.
-const PIXEL_SECONDS: f64 = 4e-8;
+/// Seconds for a pixel whose sums are written for the first time and read by the host, there: trials do not show them.
+const FIRST_SECONDS: f64 = 8e-9;
 
 /// Renders for a time by what promises the least error.
 #[derive(Clone, Copy, Debug)]
@@ -74,9 +72,11 @@ impl Integrator for Auto {
         let Some(costs) = costs(backend, self.seconds, progress)? else {
             return self.adaptive(self.seconds, None, backend, film, progress);
         };
-        // A device that keeps the pixels places samples in less time than further trials take.
-        if backend.keeps_pixels() && self.seconds - clock.left(backend) > MAX_TRIAL * self.seconds {
-            return self.adaptive(clock.left(backend), None, backend, film, progress);
+        // A device that keeps the pixels places samples in less time than further trials take. Without any time left, one
+        // sample a pixel is the least.
+        let left = clock.left(backend);
+        if backend.keeps_pixels() && left > 0.0 && self.seconds - left > MAX_TRIAL * self.seconds {
+            return self.adaptive(left, None, backend, film, progress);
         }
         let pixels = film.pixels.len() as f64;
         let number = PILOT_TIME * self.seconds * pixels
@@ -85,11 +85,11 @@ impl Integrator for Auto {
         let begun = backend.seconds();
         let mut pilot = Pilot::new(backend, [film.width, film.height], number, progress)?;
         clock.sample = (backend.seconds() - begun) / (f64::from(2 * MANY + FEW) * pilot.len() as f64);
-        let [once, hosting] = match backend.keeps_pixels() {
+        let [first, hosting] = match backend.keeps_pixels() {
             true => [0.0; 2],
-            false => [PIXEL_SECONDS, HOST_SECONDS].map(|seconds| seconds * pixels),
+            false => [FIRST_SECONDS, HOST_SECONDS].map(|seconds| seconds * pixels),
         };
-        let even = Even::new(costs, once, [MANY, FEW], pilot.noise());
+        let even = Even::new(costs, first, [MANY, FEW], pilot.noise());
         let mut prospect = Prospect {
             left: clock.left(backend),
             even,
@@ -97,7 +97,7 @@ impl Integrator for Auto {
             hosting,
             shots: Vec::new(),
         };
-        add_shots(&mut prospect, &pilot, &clock, backend, progress)?;
+        add_shots(&mut prospect, first, &pilot, &clock, backend, progress)?;
         let (candidate, samples) = match decide(&prospect).0 {
             Decision::Adaptive => {
                 let rate = Some(pixels / prospect.placed_cost());
@@ -158,11 +158,11 @@ fn costs(backend: &mut dyn Backend, seconds: f64, progress: &dyn Progress) -> Re
     let begun = backend.seconds();
     let Some(few) = backend.cost(Candidate::Samples, FEW, progress)? else { return Ok(None) };
     let spent = (backend.seconds() - begun).max(1e-9);
-    let many = (COST_TIME * seconds / spent).min(COSTS[1]) as u32 * FEW;
-    if many <= FEW && SHORT * few > seconds {
+    // No time for even those: a second cost would tell nothing.
+    if few > seconds {
         return Ok(Some(Costs { samples: [2 * FEW, FEW], seconds: [2.0 * few, few] }));
     }
-    let many = many.max(COSTS[0] as u32 * FEW);
+    let many = (COST_TIME * seconds / spent).clamp(COSTS[0], COSTS[1]) as u32 * FEW;
     let costs = backend.cost(Candidate::Samples, many, progress)?;
     Ok(costs.map(|seconds| Costs { samples: [many, FEW], seconds: [seconds, few] }))
 }
@@ -170,6 +170,7 @@ fn costs(backend: &mut dyn Backend, seconds: f64, progress: &dyn Progress) -> Re
 /// Tries the prefilters that may come below the error of samples, and fit into the time by what is known before.
 fn add_shots(
     prospect: &mut Prospect,
+    first: f64,
     pilot: &Pilot,
     clock: &Deadline,
     backend: &mut dyn Backend,
@@ -186,13 +187,17 @@ fn add_shots(
     // Few pixels may have missed where it errs most.
     let mse = found.mse.max(0.0) + found.deviation;
     if let Some(seconds) = backend.cost(Candidate::Prefiltered, 1, progress)? {
-        prospect.shots.push(Shot { candidate: Candidate::Prefiltered, mse, seconds });
+        prospect.shots.push(Shot { candidate: Candidate::Prefiltered, mse, seconds: seconds + first });
     }
     prospect.left = clock.left(backend);
     if may_win(prospect, CONE_ERROR * mse, CONE_COST)
         && let Some(seconds) = backend.cost(Candidate::Cone, 1, progress)?
     {
-        prospect.shots.push(Shot { candidate: Candidate::Cone, mse: CONE_ERROR * mse, seconds });
+        prospect.shots.push(Shot {
+            candidate: Candidate::Cone,
+            mse: CONE_ERROR * mse,
+            seconds: seconds + first,
+        });
     }
     prospect.left = clock.left(backend);
     Ok(())
