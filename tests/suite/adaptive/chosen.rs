@@ -195,3 +195,42 @@ fn samples_are_placed_pixel_by_pixel_where_there_is_time() {
     assert!(error < by_samples, "{error:e}, by samples {by_samples:e}");
     assert!(outcome.most_samples > 2 * outcome.least_samples, "{outcome:?}");
 }
+
+/// A picture whose first samples show that there is time for more.
+#[test]
+fn samples_that_are_added_to_a_picture_leave_the_earlier_ones_in_it() {
+    let gpu = device();
+    for name in ["s1a", "meshes"] {
+        let scene = small(name, 48, 4);
+        let session = Session::open(&gpu, with(scene.clone(), Algorithm::Auto, 4), false, &Tuning::default());
+        let session = session.unwrap();
+        let prepared = session.prepare().unwrap();
+        let mut backend = DeviceBackend::new(&prepared).unwrap();
+        backend.cost(Candidate::Samples, 2, &NoProgress).unwrap();
+        let mut film = Film::new(scene.width, scene.height, 0);
+        let mut samples = 4;
+        // Twice the seconds until it went on.
+        for seconds in (0..12).map(|k| 1e-3 * f64::from(1 << k)) {
+            samples =
+                backend.render_by(Candidate::Samples, 4, seconds, &mut film, &NoProgress).unwrap().samples;
+            if samples > 4 {
+                break;
+            }
+        }
+        assert!(samples > 4, "{name}: no time for more");
+        let error = rmse(&film, &fixed(&scene, samples));
+        assert!(error < 1e-5, "{name}: {error:e} with {samples} samples");
+    }
+}
+
+#[test]
+fn beams_are_not_tried_on_meshes() {
+    let gpu = device();
+    for (name, is_tried) in [("meshes", false), ("s1a", true)] {
+        let scene = with(small(name, 32, 4), Algorithm::Auto, 4);
+        let session = Session::open(&gpu, scene, false, &Tuning::default()).unwrap();
+        let prepared = session.prepare().unwrap();
+        let pilot = DeviceBackend::new(&prepared).unwrap().pilot(&NoProgress).unwrap();
+        assert_eq!(pilot.is_some(), is_tried, "{name}");
+    }
+}
