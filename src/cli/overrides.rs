@@ -10,7 +10,7 @@ use crate::core::range::Rect;
 use crate::integrators::adaptive::Goal;
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
-use crate::scene::{MAX_RADIUS, Reading};
+use crate::scene::{MAX_RADIUS, Reading, Setting};
 use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
 use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
@@ -20,6 +20,9 @@ pub struct Overrides {
     /// Camera of a glTF file, by its number from 0 or its name [default: the first]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = OUTPUT)]
     camera: Option<String>,
+    /// Replace a value of the scene, such as sampler.ground.filter=ewa. May be given several times
+    #[arg(long, value_name = "KEY=VALUE", value_parser = str::parse::<Setting>, help_heading = OUTPUT)]
+    set: Vec<Setting>,
     /// Picture size in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = OUTPUT)]
     size: Option<[u32; 2]>,
@@ -70,7 +73,11 @@ pub struct Overrides {
 impl Overrides {
     /// Reads the scene of a file, seen by the chosen camera. `keeps_meshes`: the layer `instance` numbers them.
     pub fn load(&self, path: &Path, keeps_meshes: bool) -> Result<Scene> {
-        crate::scene::load_as(path, &Reading { camera: self.camera.as_deref(), keeps_meshes })
+        crate::scene::load_as(path, &self.reading(keeps_meshes))
+    }
+
+    fn reading(&self, keeps_meshes: bool) -> Reading<'_> {
+        Reading { camera: self.camera.as_deref(), keeps_meshes, settings: &self.set }
     }
 
     /// Applies the options to the scene and returns a description of settings that were chosen
@@ -104,7 +111,8 @@ impl Overrides {
             ("pixel-filter-radius", self.pixel_filter_radius.map(|radius| radius.to_string())),
         ];
         let given = options.into_iter().filter_map(|(name, value)| Some([format!("--{name}"), value?]));
-        given.flatten().collect()
+        let settings = self.set.iter().map(|setting| ["--set".to_owned(), setting.text().to_owned()]);
+        given.chain(settings).flatten().collect()
     }
 
     /// Returns the goal that ends the sampling, unless that is a number of samples.
@@ -119,6 +127,7 @@ impl Overrides {
         json!({
             "scene": scene.path.display().to_string(),
             "camera": self.camera,
+            "set": self.set.iter().map(Setting::text).collect::<Vec<_>>(),
             "size": [scene.width, scene.height],
             "crop": crop.map(|c| [c.x, c.y, c.width, c.height]),
             "pixel_filter": scene.pixel_filter.kind.name(),

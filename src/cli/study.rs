@@ -16,7 +16,7 @@ use crate::lab::study::record::{self, Record};
 use crate::lab::study::{self, Options, ReferenceChoice};
 use crate::output;
 use crate::scene::prune::prune;
-use crate::scene::{MAX_SPP, is_standard_input};
+use crate::scene::{MAX_SPP, Reading, Setting, is_standard_input, load_as};
 
 /// Measure which anti-aliasing method has the smallest error in a given time
 ///
@@ -30,6 +30,9 @@ pub struct StudyArgs {
     /// Camera of a glTF file, by its number from 0 or its name [default: the first]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     camera: Option<String>,
+    /// Replace a value of the scene, such as sampler.ground.address=repeat. May be given several times
+    #[arg(long, value_name = "KEY=VALUE", value_parser = str::parse::<Setting>)]
+    set: Vec<Setting>,
     /// Folder for the results; its last component is created if it is missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -86,7 +89,8 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
         Some(text) => DeviceSelect::parse(text)?,
         None => DeviceSelect::Default,
     };
-    let mut scene = crate::scene::load_seen_by(&args.scene, args.camera.as_deref())?;
+    let camera = args.camera.as_deref();
+    let mut scene = load_as(&args.scene, &Reading { camera, settings: &args.set, ..Reading::default() })?;
     if let Some([width, height]) = args.size {
         (scene.width, scene.height) = (width, height);
     }
@@ -128,6 +132,7 @@ fn options(args: &StudyArgs, started: Instant) -> Options {
     if let Some(camera) = &args.camera {
         arguments.extend(["--camera".to_owned(), camera.clone()]);
     }
+    arguments.extend(args.set.iter().flat_map(|setting| ["--set".to_owned(), setting.text().to_owned()]));
     if let Some([width, height]) = args.size {
         arguments.extend(["--size".to_owned(), format!("{width}x{height}")]);
     }

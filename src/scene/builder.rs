@@ -14,6 +14,7 @@ use super::model::{
     Background, Camera, DEFAULT, Light, MappingKind, Material, PixelFilter, Sampling, Scene, TextureSource,
 };
 use super::refusal::{Check, Key};
+use super::setting::Setting;
 use super::tiles;
 use super::whole;
 use crate::core::error::Result;
@@ -50,6 +51,7 @@ impl SceneBuilder {
             first_dropped: String::new(),
             lights: Vec::new(),
             sources: Vec::new(),
+            settings: Vec::new(),
             notes: Vec::new(),
         };
         SceneBuilder { scene, over: None, keeps_meshes: false, notes: HashMap::new() }
@@ -153,6 +155,11 @@ impl SceneBuilder {
     /// Names a further file that the scene was read from.
     pub(super) fn source(&mut self, path: PathBuf) {
         self.scene.sources.push(path);
+    }
+
+    /// Names what replaced values of the scene's file.
+    pub(super) fn settings(&mut self, settings: &[Setting]) {
+        self.scene.settings.extend(settings.iter().map(|setting| setting.text().to_owned()));
     }
 
     /// Adds a warning about the files of the scene; the same one more often is told once, with its count.

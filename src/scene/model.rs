@@ -54,6 +54,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Files of meshes and their materials that the scene was read from, beside its own.
     pub sources: Vec<PathBuf>,
+    /// What replaced values of its file, as it was written.
+    pub settings: Vec<String>,
     /// What a reader of its files has to tell, for warnings.
     pub notes: Vec<String>,
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::builder::SceneBuilder;
 use super::model::{self, Camera};
-use super::{load, parse};
+use super::{Reading, Setting, load, load_as, parse};
 use crate::core::error::Result;
 
 /// A scene to render: what a [`Renderer`](crate::Renderer) takes. All its limits are checked.
@@ -27,6 +27,24 @@ impl Scene {
     /// are named, not opened.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Scene> {
         load(path.as_ref()).map(Scene)
+    }
+
+    /// Reads a scene file as [`from_file`](Scene::from_file) does, with other values for some of its keys: each
+    /// setting is `KEY=VALUE`, as `moire render --set` takes it. Paths in a value are relative to the current folder.
+    ///
+    /// ```no_run
+    /// # fn main() -> moire::Result<()> {
+    /// let scene = moire::Scene::from_file_with("scene.toml", ["sampling.spp=64", "sampler.*.filter=ewa"])?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn from_file_with<S: AsRef<str>>(
+        path: impl AsRef<Path>,
+        settings: impl IntoIterator<Item = S>,
+    ) -> Result<Scene> {
+        let settings = settings.into_iter().map(|setting| Setting::parse(setting.as_ref()));
+        let settings = settings.collect::<Result<Vec<_>>>()?;
+        load_as(path.as_ref(), &Reading { settings: &settings, ..Reading::default() }).map(Scene)
     }
 
     /// Reads a scene from the text of a scene file. Paths in it are relative to the current folder.

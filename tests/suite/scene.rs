@@ -2,6 +2,7 @@
 //! be read.
 
 mod errors;
+mod set;
 mod settings;
 mod shapes;
 mod surfaces;

@@ -1,5 +1,6 @@
 //! The identity of a measured point as a hash of everything on which it depends: the program, the
-//! device and its driver, the picture's size and seed, the scene file and every file that it names.
+//! device and its driver, the picture's size and seed, the scene file, what replaced its values, and every file that it
+//! names.
 //! Runs with equal hashes measure the same thing.
 
 use std::fs;
@@ -58,6 +59,7 @@ pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
         .text(&format!("{:?} {}", conditions.size, conditions.seed))
         // Files of models have several.
         .text(&format!("{:?}", scene.camera));
+    hash = scene.settings.iter().fold(hash, |hash, setting| hash.text(setting));
     let textures = scene.textures.iter().flat_map(|t| t.content.files());
     let sources = scene.sources.iter().map(std::path::PathBuf::as_path);
     for path in std::iter::once(scene.path.as_path()).chain(sources).chain(textures) {

@@ -174,6 +174,7 @@ pub fn pairs_over(
         samplers: samplers.to_vec(),
         materials: list.iter().map(material).collect(),
         shapes: Shapes::default(),
+        settings: Vec::new(),
         dropped_triangles: 0,
         sources: Vec::new(),
         notes: Vec::new(),

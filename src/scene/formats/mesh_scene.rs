@@ -7,10 +7,11 @@ use glam::DVec3;
 
 use super::Reading;
 use super::mesh_file::{MeshFile, Usage};
+use super::toml::View;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::limits::check_filters;
-use crate::scene::model::{Background, Camera, Footprint, Light, Projection, Sampling, Scene};
+use crate::scene::model::{Camera, Footprint, Light, PixelFilter, Projection, Sampling, Scene};
 
 const SIZE: u32 = 512;
 /// Vertical angle of view in degrees.
@@ -32,21 +33,26 @@ pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
     builder.keep_meshes(reading.keeps_meshes);
     let file = MeshFile::open(path, &mut builder)?;
     let unknown = |what| Error::new(format!("--camera: {}: {what}", path.display()));
-    match file.camera(reading.camera).map_err(unknown)? {
-        Some((camera, aspect)) => builder.view(camera, (f64::from(SIZE) * aspect).round() as u32, SIZE),
-        None => builder.view(camera_of(file.bounds()), SIZE, SIZE),
+    let (camera, aspect) =
+        file.camera(reading.camera).map_err(unknown)?.unwrap_or_else(|| (camera_of(file.bounds()), 1.0));
+    let mut view = View {
+        camera,
+        size: [(f64::from(SIZE) * aspect).round() as u32, SIZE],
+        pixel_filter: PixelFilter::default(),
+        sampling: Sampling { footprint: Footprint::Differentials, ..Sampling::default() },
+        background: DVec3::splat(BACKGROUND),
+        lights: file.lights(),
     };
-    builder.background(Background { color: DVec3::splat(BACKGROUND), environment: None });
-    builder.sampling(Sampling { footprint: Footprint::Differentials, ..Sampling::default() });
-    let mut lights = file.lights();
-    if lights.is_empty() {
+    if view.lights.is_empty() {
         let light =
             |(direction, irradiance)| Light::Directional { direction, irradiance: DVec3::splat(irradiance) };
-        lights.extend(LIGHTS.map(light));
+        view.lights.extend(LIGHTS.map(light));
     }
-    for light in lights {
-        builder.light(light);
+    if !reading.settings.is_empty() {
+        builder.settings(reading.settings);
+        view = view.changed(path, reading.settings)?;
     }
+    view.build(&mut builder);
     let dropped = file.add(&[Usage::default()], &mut builder)?.map_err(|unsuited| failed(unsuited.what))?;
     if !builder.has_shapes() {
         return Err(failed(format!(

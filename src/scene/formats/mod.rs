@@ -15,6 +15,7 @@ use std::io::{ErrorKind as Io, Read};
 use std::path::Path;
 
 use super::model::Scene;
+use super::setting::Setting;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
 use crate::mesh::Fault;
@@ -39,6 +40,8 @@ pub struct Reading<'a> {
     pub camera: Option<&'a str>,
     /// Meshes, and nodes of glTF files, become shapes of their own, which the layer `instance` numbers.
     pub keeps_meshes: bool,
+    /// What replaces values of the file, in this order.
+    pub settings: &'a [Setting],
 }
 
 /// All formats of scenes; every format of meshes is one of scenes, too. The first one applies to standard input and to

@@ -52,7 +52,13 @@ const CONTEXTS: &[Context] = &[
         inline: Some(("motion", &[])),
         ..NONE
     },
-    Context { heading: "## `[image]`", header: "[image]", body: &[("width", "4"), ("height", "4")], ..NONE },
+    Context {
+        heading: "## `[image]`",
+        header: "[image]",
+        body: &[("width", "4"), ("height", "4")],
+        without: &[("size", "width"), ("size", "height")],
+        ..NONE
+    },
     Context { heading: "## `[sampling]`", header: "[sampling]", ..NONE },
     Context {
         heading: "## `[background]`",

@@ -1,7 +1,7 @@
-//! Reads `[[mesh]]`: a file of triangles, placed and given materials. Input: the section's tables and the scene's
-//! folder. Output: triangles of the scene.
+//! Reads `[[mesh]]`: a file of triangles, placed and given materials. Input: the section's tables. Output:
+//! triangles of the scene.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::{DAffine3, DMat3, DVec3};
 use toml::de::DeValue;
@@ -26,13 +26,8 @@ struct Section<'a> {
 }
 
 /// Adds the triangles of all meshes; those of one file with the first of them.
-pub(super) fn add_all(
-    folder: &Path,
-    root: &Table<'_>,
-    names: &Names<'_>,
-    builder: &mut SceneBuilder,
-) -> Result<()> {
-    let sections = root.repeated("mesh", MESH)?.into_iter().map(|table| section(folder, table, names));
+pub(super) fn add_all(root: &Table<'_>, names: &Names<'_>, builder: &mut SceneBuilder) -> Result<()> {
+    let sections = root.repeated("mesh", MESH)?.into_iter().map(|table| section(table, names));
     let mut sections: Vec<Option<Section>> =
         sections.map(|section| section.map(Some)).collect::<Result<_>>()?;
     for first in 0..sections.len() {
@@ -55,9 +50,9 @@ pub(super) fn add_all(
     Ok(())
 }
 
-fn section<'a>(folder: &Path, table: Table<'a>, names: &Names<'_>) -> Result<Section<'a>> {
+fn section<'a>(table: Table<'a>, names: &Names<'_>) -> Result<Section<'a>> {
     let file = table.required("file")?;
-    let path = folder.join(file.string()?);
+    let path = file.path()?;
     if !mesh_file::is_mesh(&path) {
         let wanted = format!("the path of a mesh file (its ending one of {})", mesh_file::endings());
         return Err(file.expected(&wanted));

@@ -10,10 +10,12 @@ mod procedural;
 mod reader;
 mod samplers;
 mod sections;
+mod settings;
 mod shapes;
 mod source;
 mod table;
 mod textures;
+mod view;
 mod vocabulary;
 
 use std::path::Path;
@@ -32,11 +34,13 @@ use procedural::PROCEDURAL;
 use samplers::Known;
 use source::Source;
 use table::Table;
+pub(in crate::scene) use view::View;
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
 const MAX_BYTES: u64 = 64 << 20;
-const SECTIONS: &[&str] =
-    &["camera", "image", "sampling", "background", "texture", "sampler", "material", "mesh", "light"];
+const SINGLE: &[&str] = &["camera", "image", "sampling", "background"];
+/// Sections that are lists of tables, beside those of shapes.
+const REPEATED: &[&str] = &["texture", "sampler", "material", "mesh", "light"];
 
 pub(super) const FORMAT: Format = Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read };
 
@@ -62,11 +66,11 @@ pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
 }
 
 fn parse_as(path_for_messages: &Path, text: &str, reading: &Reading<'_>) -> Result<Scene> {
-    let source = Source { path: path_for_messages, text };
-    let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
+    let source = Source { path: path_for_messages, text, settings: reading.settings };
+    let mut document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?.into_inner();
     let shapes: Vec<&str> = geometry::sections().map(|kind| kind.name).collect();
-    let sections = [SECTIONS, &shapes].concat();
-    let root = Table::root(source, document.get_ref(), &sections)?;
+    settings::apply(&mut document, source, &[REPEATED, &shapes].concat())?;
+    let root = Table::root(source, &document, &[SINGLE, REPEATED, &shapes].concat())?;
     assemble(path_for_messages, &root, reading)
 }
 
@@ -98,29 +102,29 @@ fn assemble(path: &Path, root: &Table<'_>, reading: &Reading<'_>) -> Result<Scen
     let (width, height) = sections::image(&image)?;
     let mut builder = SceneBuilder::new(camera, width, height);
     builder.path(path);
+    builder.settings(reading.settings);
     builder.keep_meshes(reading.keeps_meshes);
     builder.pixel_filter(sections::pixel_filter(&image)?);
     builder.sampling(sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?);
-    let materials = surfaces(path, root, &mut builder)?;
+    let materials = surfaces(root, &mut builder)?;
     let dropped = shapes::add_all(root, &materials, &mut builder)?;
-    meshes::add_all(path.parent().unwrap_or(Path::new("")), root, &materials, &mut builder)?;
+    meshes::add_all(root, &materials, &mut builder)?;
     for table in root.repeated("light", lights::LIGHT)? {
         builder.light(lights::light(&table)?);
     }
     let mut scene = builder.check().map_err(|refusal| place::error(root, &refusal))?;
     check_filters(&scene)?;
-    if let Some(line) = dropped {
-        scene.first_dropped = format!("line {line}");
+    if let Some(place) = dropped {
+        scene.first_dropped = place;
     }
     Ok(scene)
 }
 
 /// Adds textures, samplers, materials and the background; returns the materials' names.
-fn surfaces<'a>(path: &Path, root: &Table<'a>, builder: &mut SceneBuilder) -> Result<Names<'a>> {
+fn surfaces<'a>(root: &Table<'a>, builder: &mut SceneBuilder) -> Result<Names<'a>> {
     let tables = root.repeated("texture", &[textures::TEXTURE, PROCEDURAL].concat())?;
     let texture_names = Names::collect("texture", &tables)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let textures = tables.iter().map(|table| textures::texture(table, folder)).collect::<Result<Vec<_>>>()?;
+    let textures = tables.iter().map(textures::texture).collect::<Result<Vec<_>>>()?;
 
     let tables = root.repeated("sampler", samplers::SAMPLER)?;
     let sampler_names = Names::collect("sampler", &tables)?;

@@ -29,12 +29,12 @@ impl<'a> Names<'a> {
                 Entry::Vacant(entry) => entry.insert(fields.len()),
                 Entry::Occupied(entry) => {
                     let first = fields[*entry.get()].span().start;
-                    let (line, _) = field.source.line_column(first);
+                    let place = field.source.place(first);
                     let what = format!(
-                        "the name {} is taken by the [[{kind}]] of line {line}; give each its own",
+                        "the name {} is taken by the [[{kind}]] of {place}; give each its own",
                         quoted(name)
                     );
-                    return Err(field.error(&what, format!("also on line {line}")));
+                    return Err(field.error(&what, format!("also on {place}")));
                 }
             };
             names.ordered.push(name);
@@ -55,13 +55,18 @@ impl<'a> Names<'a> {
         }
         let near = suggestion(name, self.ordered.iter().copied());
         let end = if near.is_empty() { ";" } else { "" };
-        let listed: Vec<String> = self.ordered.iter().take(MAX_LISTED).map(|name| quoted(name)).collect();
-        let rest = match self.ordered.len().saturating_sub(MAX_LISTED) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let known = listed.join(", ");
-        let what = format!("no [[{kind}]] is named {}{near}{end} known: {known}{rest}", quoted(name));
+        let known = listed(&self.ordered);
+        let what = format!("no [[{kind}]] is named {}{near}{end} known: {known}", quoted(name));
         Err(field.error(&what, format!("no such {kind}{near}")))
     }
+}
+
+/// Returns names in quotes, not too many.
+pub(super) fn listed(names: &[&str]) -> String {
+    let shown: Vec<String> = names.iter().take(MAX_LISTED).map(|name| quoted(name)).collect();
+    let rest = match names.len().saturating_sub(MAX_LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{}{rest}", shown.join(", "))
 }

@@ -2,6 +2,7 @@
 //! Output: the typed value, or an error that quotes the value and lists what is allowed.
 
 use std::ops::{Range, RangeInclusive};
+use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 use toml::Spanned;
@@ -139,6 +140,11 @@ impl<'a> Field<'a> {
             Some(text) if !text.is_empty() => Ok(text),
             _ => Err(self.expected("a string that is not empty")),
         }
+    }
+
+    /// Reads a path, relative to the folder where it was written.
+    pub fn path(self) -> Result<PathBuf> {
+        self.string().map(|path| self.source.resolve(self.span().start, path))
     }
 
     /// Reads one value of a vocabulary by its name.

@@ -21,7 +21,8 @@ pub(super) const CAMERA: &[&str] = &[
     "shutter",
     "motion",
 ];
-pub(super) const IMAGE: &[&str] = &["width", "height", "pixel_filter", "pixel_filter_radius"];
+pub(super) const PROJECTIONS: [&str; 3] = ["vertical_fov", "camera_constant", "orthographic_height"];
+pub(super) const IMAGE: &[&str] = &["width", "height", "size", "pixel_filter", "pixel_filter_radius"];
 pub(super) const SAMPLING: &[&str] =
     &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint", "precision"];
 
@@ -54,11 +55,11 @@ fn lens(table: &Table<'_>, distance: f64) -> Result<Option<Lens>> {
 }
 
 fn projection(table: &Table<'_>) -> Result<Projection> {
-    const KEYS: [&str; 3] = ["vertical_fov", "camera_constant", "orthographic_height"];
-    let given: Vec<Field<'_>> = KEYS.iter().filter_map(|key| table.get(key)).collect();
+    let given: Vec<Field<'_>> = PROJECTIONS.iter().filter_map(|key| table.get(key)).collect();
     match given.as_slice() {
         [] => {
-            let what = format!("key \"camera.vertical_fov\" is missing: give one of {}", KEYS.join(", "));
+            let what =
+                format!("key \"camera.vertical_fov\" is missing: give one of {}", PROJECTIONS.join(", "));
             Err(table.error(&what, "needs a field of view"))
         }
         [field] => match field.key {
@@ -67,13 +68,21 @@ fn projection(table: &Table<'_>) -> Result<Projection> {
             _ => field.number().map(Projection::Orthographic),
         },
         [first, second, ..] => {
-            let what = format!("{} is given too; keep exactly one of {}", first.key, KEYS.join(", "));
+            let what = format!("{} is given too; keep exactly one of {}", first.key, PROJECTIONS.join(", "));
             Err(second.error(&what, format!("excludes {}", first.key)))
         }
     }
 }
 
 pub(super) fn image(table: &Table<'_>) -> Result<(u32, u32)> {
+    if let Some(field) = table.get("size") {
+        if let Some(other) = ["width", "height"].iter().find_map(|key| table.get(key)) {
+            return Err(other.error("size is given too; keep size, or width and height", "excludes size"));
+        }
+        let [width, height] =
+            field.array("2 integers, width and height", [0; 2], |field| field.integer(&SIZE))?;
+        return Ok((width, height));
+    }
     let width = table.required("width")?.integer(&SIZE)?;
     let height = table.required("height")?.integer(&SIZE)?;
     Ok((width, height))

@@ -16,12 +16,12 @@ pub(super) fn is_shape(section: &str) -> bool {
     sections().any(|kind| kind.name == section)
 }
 
-/// Adds all shapes; returns the line of the first one that no ray can meet.
+/// Adds all shapes; returns where the first one stands that no ray can meet.
 pub(super) fn add_all(
     root: &Table<'_>,
     materials: &Names<'_>,
     builder: &mut SceneBuilder,
-) -> Result<Option<usize>> {
+) -> Result<Option<String>> {
     let mut tables = Vec::new();
     for kind in sections() {
         let found = root.repeated(kind.name, &kind.keys.concat())?;
@@ -33,7 +33,7 @@ pub(super) fn add_all(
         let material = table.get("material").map_or(Ok(DEFAULT), |field| materials.resolve(field))?;
         let motion = table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?;
         if builder.read_shape(kind, table, material, motion)? && dropped.is_none() {
-            dropped = Some(table.line());
+            dropped = Some(table.place_in_source());
         }
     }
     Ok(dropped)

@@ -1,13 +1,15 @@
-//! A scene's text and its path. Input: a byte range and a message. Output: an [`Error::Scene`] whose one-line message
-//! names file, line and column (both from 1, columns in characters); also excerpts and suggestions for messages.
+//! A scene's text and its path, and the settings given beside it, whose positions lie behind the text. Input: a byte range
+//! and a message. Output: an [`Error::Scene`] whose one-line message names file, line and column (both from 1, columns in
+//! characters), or the setting; also excerpts and suggestions for messages.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use miette::NamedSource;
 
 use crate::core::error::Error;
+use crate::scene::setting::Setting;
 use crate::scene::synonyms::meant;
 
 /// Longest excerpt or name that a message repeats, in characters.
@@ -17,22 +19,68 @@ const LONGEST_EXCERPT: usize = 60;
 pub(super) struct Source<'a> {
     pub path: &'a Path,
     pub text: &'a str,
+    pub settings: &'a [Setting],
 }
 
-impl Source<'_> {
+/// The file's text or a setting's, and where it begins.
+struct Part<'a> {
+    text: &'a str,
+    base: usize,
+    setting: Option<&'a Setting>,
+}
+
+impl<'a> Source<'a> {
+    /// Returns the settings, each with the position of its text.
+    pub fn placed_settings(self) -> impl Iterator<Item = (&'a Setting, usize)> {
+        let mut base = self.text.len() + 1;
+        self.settings.iter().map(move |setting| {
+            let own = base;
+            base += setting.text().len() + 1;
+            (setting, own)
+        })
+    }
+
+    /// Returns true for a position in the file.
+    pub fn is_of_file(self, at: usize) -> bool {
+        at <= self.text.len()
+    }
+
+    /// Returns the path that a value means: relative to the file's folder, or to the current one if the value was
+    /// typed there.
+    pub fn resolve(self, at: usize, path: &str) -> PathBuf {
+        let folder = self.path.parent().filter(|_| self.is_of_file(at));
+        folder.unwrap_or(Path::new("")).join(path)
+    }
+
     /// Returns an error; `label` is shown beside the caret, `what` in the message after `file:line:column: `.
     pub fn error(self, span: Range<usize>, what: &str, label: impl Into<String>) -> Error {
-        let start = floor_char(self.text, span.start);
-        let end = floor_char(self.text, span.end).max(start);
-        let (line, column) = self.line_column(start);
-        let path = self.path.display().to_string();
-        let source = NamedSource::new(&path, self.text.to_owned());
+        let part = self.part(span.start);
+        let start = floor_char(part.text, span.start - part.base);
+        let end = floor_char(part.text, span.end.saturating_sub(part.base)).max(start);
+        let (name, place) = match part.setting {
+            Some(setting) => ("--set".to_owned(), format!("--set {}", shorten(setting.text()))),
+            None => {
+                let (line, column) = self.line_column(start);
+                let path = self.path.display().to_string();
+                let place = format!("{path}:{line}:{column}");
+                (path, place)
+            }
+        };
+        let source = NamedSource::new(name, part.text.to_owned());
         Error::Scene {
-            message: one_line(&format!("{path}:{line}:{column}: {what}")),
+            message: one_line(&format!("{place}: {what}")),
             label: one_line(&label.into()),
             source_code: Arc::new(source),
             span: (start, end - start).into(),
             help: None,
+        }
+    }
+
+    fn part(self, at: usize) -> Part<'a> {
+        let setting = self.placed_settings().filter(|(_, base)| *base <= at).last();
+        match setting {
+            Some((setting, base)) => Part { text: setting.text(), base, setting: Some(setting) },
+            None => Part { text: self.text, base: 0, setting: None },
         }
     }
 
@@ -43,7 +91,15 @@ impl Source<'_> {
         self.text[start..].lines().next().unwrap_or_default()
     }
 
-    pub fn line_column(self, offset: usize) -> (usize, usize) {
+    /// Returns `line N`, or the setting of a position.
+    pub fn place(self, at: usize) -> String {
+        match self.part(at).setting {
+            Some(setting) => one_line(&format!("--set {}", shorten(setting.text()))),
+            None => format!("line {}", self.line_column(at).0),
+        }
+    }
+
+    fn line_column(self, offset: usize) -> (usize, usize) {
         let before = &self.text[..floor_char(self.text, offset)];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = before.bytes().filter(|&byte| byte == b'\n').count() + 1;
@@ -53,7 +109,9 @@ impl Source<'_> {
 
     /// Returns the source text of a value with runs of white space collapsed to one space.
     pub fn excerpt(self, span: Range<usize>) -> String {
-        let text = self.text.get(span).unwrap_or_default();
+        let part = self.part(span.start);
+        let local = span.start - part.base..span.end.saturating_sub(part.base);
+        let text = part.text.get(local).unwrap_or_default();
         // Enough of a long text for the shortened form.
         let head: String = text.chars().take(8 * LONGEST_EXCERPT).collect();
         shorten(&head.split_whitespace().collect::<Vec<_>>().join(" "))

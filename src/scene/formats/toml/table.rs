@@ -101,9 +101,9 @@ impl<'a> Table<'a> {
         self.error(&what, format!("needs {key}"))
     }
 
-    /// Returns the line of its first character.
-    pub fn line(&self) -> usize {
-        self.source.line_column(self.span.start).0
+    /// Returns the line of its first character, in words.
+    pub fn place_in_source(&self) -> String {
+        self.source.place(self.span.start)
     }
 
     pub fn error(&self, what: &str, label: impl Into<String>) -> Error {

@@ -1,5 +1,5 @@
-//! Reads `[[texture]]`: the source of the texels and their meaning. Input: the section's table and the scene
-//! file's folder. Output: a [`TextureSource`]. No file is opened here.
+//! Reads `[[texture]]`: the source of the texels and their meaning. Input: the section's table. Output: a
+//! [`TextureSource`]. No file is opened here.
 
 use std::path::{Path, PathBuf};
 
@@ -34,7 +34,7 @@ const CONTENTS: [&str; 5] = ["file", "faces", "slices", "volume", "ramp"];
 const VOLUME: &[&str] = &["file", "size", "format", "offset", "endian"];
 const FACES: &str = "6 files, the faces +x, -x, +y, -y, +z and -z";
 
-pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource> {
+pub(super) fn texture(table: &Table<'_>) -> Result<TextureSource> {
     let name = table.required("name")?.string()?.to_owned();
     if table.get("procedural").is_some() {
         if let Some(other) = CONTENTS.iter().find_map(|key| table.get(key)) {
@@ -58,7 +58,7 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
     let field = only_content(table)?;
     table.allow_only(TEXTURE)?;
     let dimension = dimension(table, field)?;
-    let content = content(table, field, dimension, folder)?;
+    let content = content(table, field, dimension)?;
 
     let mut color_space = ColorSpace::Linear;
     if let Some(given) = table.get("color_space") {
@@ -142,27 +142,21 @@ fn dimension(table: &Table<'_>, content: Field<'_>) -> Result<Dimension> {
     })
 }
 
-fn content(
-    table: &Table<'_>,
-    field: Field<'_>,
-    dimension: Dimension,
-    folder: &Path,
-) -> Result<TextureContent> {
-    let file = |field: Field<'_>| field.string().map(|name| folder.join(name));
+fn content(table: &Table<'_>, field: Field<'_>, dimension: Dimension) -> Result<TextureContent> {
     let layout = layout(table, field)?;
     Ok(match field.key {
         "faces" => {
             let empty: [PathBuf; 6] = Default::default();
-            TextureContent::Faces(field.array(FACES, empty, file)?)
+            TextureContent::Faces(field.array(FACES, empty, Field::path)?)
         }
-        "slices" => TextureContent::Slices(field.list("files", MAX_TEXELS, file)?),
-        "volume" => TextureContent::Volume(volume(&Table::inline(field, "texture.volume", VOLUME)?, folder)?),
+        "slices" => TextureContent::Slices(field.list("files", MAX_TEXELS, Field::path)?),
+        "volume" => TextureContent::Volume(volume(&Table::inline(field, "texture.volume", VOLUME)?)?),
         "ramp" => TextureContent::Ramp(field.list("colors", MAX_TEXELS, color)?),
         _ if dimension == Dimension::Cube || layout.is_some() => {
-            TextureContent::CubeFile(file(field)?, layout)
+            TextureContent::CubeFile(field.path()?, layout)
         }
-        _ if dimension == Dimension::Two => TextureContent::flat_file(file(field)?),
-        _ => TextureContent::File(file(field)?),
+        _ if dimension == Dimension::Two => TextureContent::flat_file(field.path()?),
+        _ => TextureContent::File(field.path()?),
     })
 }
 
@@ -179,11 +173,11 @@ fn layout(table: &Table<'_>, content: Field<'_>) -> Result<Option<CubeLayout>> {
     Ok(Some(layout))
 }
 
-fn volume(table: &Table<'_>, folder: &Path) -> Result<VolumeSource> {
+fn volume(table: &Table<'_>) -> Result<VolumeSource> {
     let wanted = "3 sizes, width, height and depth";
     let endian = table.get("endian").map_or(Ok(Endian::Little), |f| f.choice(Endian::NAMES, Endian::ALL))?;
     Ok(VolumeSource {
-        file: folder.join(table.required("file")?.string()?),
+        file: table.required("file")?.path()?,
         size: table.required("size")?.array(wanted, [0; 3], |f| f.integer(&TEXELS))?,
         format: table.required("format")?.choice(TexelFormat::NAMES, TexelFormat::ALL)?,
         offset: table.get("offset").map_or(Ok(0), |f| f.integer(&(0..=u32::MAX)))?.into(),

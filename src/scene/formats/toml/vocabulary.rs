@@ -1,11 +1,21 @@
-//! Finds the table for a key in a wrong one. Input: the table's section and the key. Output: a related table
-//! that has such a key.
+//! How keys of sections are related. Input: a section and a key. Output: a related table that has such a key, if it is in a
+//! wrong one; or the keys that stand in its place in other scenes.
 
 use super::materials::{MAPPING, MATERIAL};
 use super::samplers::{BACKGROUND, SAMPLER};
-use super::sections::{CAMERA, IMAGE, SAMPLING};
+use super::sections::{CAMERA, IMAGE, PROJECTIONS, SAMPLING};
 use super::shapes::is_shape;
 use super::textures::TEXTURE;
+
+/// Keys of a section that exclude each other.
+const ALTERNATIVES: [(&str, &[&str]); 6] = [
+    ("camera", &PROJECTIONS),
+    ("texture", &["procedural", "file", "faces", "slices", "volume", "ramp"]),
+    ("material", &["normal_map", "bump_map"]),
+    ("light", &["radiance", "intensity"]),
+    ("image", &["size", "width"]),
+    ("image", &["size", "height"]),
+];
 
 type Home = (&'static str, &'static [&'static str]);
 
@@ -43,4 +53,10 @@ fn neighbours(section: &str) -> &'static [Home] {
 /// Describes the table in words.
 pub(super) fn home_of(section: &str, key: &str) -> Option<&'static str> {
     neighbours(section).iter().find(|(_, keys)| keys.contains(&key)).map(|(home, _)| *home)
+}
+
+/// Returns the keys of a section in whose place this one is given.
+pub(super) fn replaced_by(section: &str, key: &str) -> impl Iterator<Item = &'static str> {
+    let of_section = ALTERNATIVES.iter().filter(move |(name, keys)| *name == section && keys.contains(&key));
+    of_section.flat_map(|(_, keys)| keys.iter().copied()).filter(move |other| *other != key)
 }
