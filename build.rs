@@ -1,6 +1,7 @@
 //! Makes GLSL of the tables in `src/schema`, compiles the shaders of `build/shaders.rs` to SPIR-V and writes
 //! `$OUT_DIR/shaders.rs`: for each shader where its words lie and what reflection finds in them (descriptor
-//! bindings, specialization constants), and the families by which a host chooses among them.
+//! bindings, specialization constants), and the families by which a host chooses among them. `$OUT_DIR/built_in.rs` lists
+//! the files of scenes that the program has in itself.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -14,6 +15,8 @@ mod tables;
 mod bindings;
 #[path = "src/schema/blocks.rs"]
 mod blocks;
+#[path = "build/built_in.rs"]
+mod built_in;
 #[path = "build/compile.rs"]
 mod compile;
 #[path = "src/schema/constants.rs"]
@@ -56,7 +59,11 @@ fn main() -> Result<(), AnyError> {
     for input in ["glsl", "src/schema", "build.rs", "build"] {
         println!("cargo:rerun-if-changed={input}");
     }
+    for folder in built_in::FOLDERS {
+        println!("cargo:rerun-if-changed=data/{folder}");
+    }
     let out = PathBuf::from(env::var("OUT_DIR")?);
+    fs::write(out.join("built_in.rs"), built_in::list()?)?;
     let generated = out.join("schema");
     generate::generate(&generated)?;
     let mut rust = String::new();

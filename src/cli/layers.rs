@@ -99,6 +99,11 @@ impl Wanted {
         self.aovs.iter().any(|aov| matches!(aov, Aov::Samples | Aov::Error))
     }
 
+    /// Returns the picture alone.
+    pub fn without_layers(&self) -> Wanted {
+        Wanted { aovs: Vec::new(), has_beauty: self.has_beauty, pictures: Vec::new() }
+    }
+
     /// Measures the layers.
     pub fn render(
         &self,

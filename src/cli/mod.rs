@@ -15,6 +15,7 @@ pub mod study;
 pub mod texture;
 mod texture_levels;
 pub mod verify;
+mod watch;
 
 use std::ffi::OsStr;
 use std::fmt::Display;
@@ -68,12 +69,17 @@ pub fn notify(line: impl Display) {
 pub fn exit_code(result: Result<ExitCode>) -> ExitCode {
     result.unwrap_or_else(|error| {
         let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
-        let plain = error.to_string();
-        // The excerpt of a scene file is formatted by a library, whose panics are contained too.
-        let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
-        notify(report.unwrap_or(plain));
+        tell(error);
         ExitCode::from(code)
     })
+}
+
+/// Prints an error with its place and help.
+fn tell(error: Error) {
+    let plain = error.to_string();
+    // The excerpt of a scene file is formatted by a library, whose panics are contained too.
+    let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
+    notify(report.unwrap_or(plain));
 }
 
 /// Prints a result on stdout. A reader that stops early, such as `head`, is not an error.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::output::{self, ENDING_NAMES, Format, Named, WriteOptions};
-use crate::scene::is_standard_input;
+use crate::scene::{BuiltIn, is_standard_input};
 
 /// The name in messages.
 const STANDARD_OUTPUT: &str = "standard output";
@@ -79,7 +79,12 @@ impl Outputs {
 
 /// Returns the scene's name with `.png`, in the current folder.
 fn default_name(scene: &Path) -> PathBuf {
-    let stem = if is_standard_input(scene) { None } else { scene.file_stem() };
+    let built_in = BuiltIn::named(scene).ok().flatten();
+    let stem = match built_in {
+        Some(built_in) => Some(built_in.name.as_ref()),
+        None if is_standard_input(scene) => None,
+        None => scene.file_stem(),
+    };
     let mut name = stem.unwrap_or("scene".as_ref()).to_owned();
     name.push(".png");
     PathBuf::from(name)

@@ -26,6 +26,11 @@ impl Bar {
         Ok(Bar(bar))
     }
 
+    /// Begins anew after the end.
+    pub fn restart(&self) {
+        self.0.reset();
+    }
+
     pub fn finish(&self) {
         self.0.finish_and_clear();
     }

@@ -1,5 +1,6 @@
 //! Types that every other module may use: colour, film, errors, names, progress.
 
+pub mod built_in;
 pub mod color;
 pub mod counted;
 pub mod error;

@@ -4,10 +4,11 @@
 
 pub use super::aov::Aov;
 use super::backend::DeviceBackend;
+use super::kept::Kept;
 use super::layer_samples::estimates;
 pub use super::layer_surfaces::MAX_SURFACES;
 use super::layer_surfaces::{Take, count_surfaces, looking};
-use super::load::{Loaded, load};
+use super::load::load;
 use super::options::{On, Options};
 use super::picture::Picture;
 use super::session::Session;
@@ -36,12 +37,13 @@ pub fn render_layers(
     wanted.iter().try_for_each(|aov| aov.check(scene))?;
     // One device takes all of them.
     let on = &on[..on.len().min(1)];
+    let mut kept = Kept::default();
     let mut steps = Steps { progress, done: 0, all: wanted.len() };
     let mut found: Vec<(Aov, Layer)> = Vec::with_capacity(wanted.len());
     let centres: Vec<Aov> = wanted.iter().copied().filter(|aov| aov.at_centre().is_some()).collect();
     if !centres.is_empty() {
-        let mut loaded = load(&at_centres(scene), options, on)?;
-        let mut measuring = Measuring::open(&mut loaded, options)?;
+        let packed = load(&at_centres(scene), options, on, &mut kept)?.packed;
+        let mut measuring = Measuring::open(packed, &kept, options)?;
         for aov in centres {
             let quantity = aov.at_centre().unwrap_or_default();
             let film = measuring.measure(quantity, &mut |backend, size| {
@@ -56,8 +58,8 @@ pub fn render_layers(
             Aov::Albedo => {
                 let lightless = lightless(scene);
                 let samples = lightless.sampling.samples();
-                let mut loaded = load(&lightless, options, on)?;
-                let mut measuring = Measuring::open(&mut loaded, options)?;
+                let packed = load(&lightless, options, on, &mut kept)?.packed;
+                let mut measuring = Measuring::open(packed, &kept, options)?;
                 let film = measuring.measure(Quantity::Albedo, &mut |backend, size| {
                     Ok(Fixed { samples }.render(backend, Film::new(size[0], size[1], 0), &steps.next())?.film)
                 })?;
@@ -65,8 +67,8 @@ pub fn render_layers(
             }
             Aov::Surfaces => {
                 let looking = looking(lightless(scene));
-                let mut loaded = load(&looking, options, on)?;
-                let mut measuring = Measuring::open(&mut loaded, options)?;
+                let packed = load(&looking, options, on, &mut kept)?.packed;
+                let mut measuring = Measuring::open(packed, &kept, options)?;
                 let film = measuring.surfaces(&looking, &steps.next())?;
                 layer(aov, &film)
             }
@@ -81,7 +83,7 @@ pub fn render_layers(
 
 /// Returns the packed scene whose camera rays, one through each pixel's centre, have the footprint of the whole pixel.
 pub fn packed_at_centres(scene: &Scene, options: &Options) -> Result<PackedScene> {
-    Ok(load(&at_centres(scene), options, &[On::Oracle])?.packed)
+    Ok(load(&at_centres(scene), options, &[On::Oracle], &mut Kept::default())?.packed)
 }
 
 /// The progress of one layer after the other.
@@ -128,9 +130,8 @@ enum Measuring<'g> {
 }
 
 impl<'g> Measuring<'g> {
-    fn open(loaded: &'g mut Loaded, options: &Options) -> Result<Measuring<'g>> {
-        let packed = std::mem::take(&mut loaded.packed);
-        match loaded.gpus.first() {
+    fn open(packed: PackedScene, kept: &'g Kept, options: &Options) -> Result<Measuring<'g>> {
+        match kept.gpus.first() {
             Some(gpu) => Measuring::on(gpu, packed, options),
             None => Ok(Measuring::Oracle(Box::new(packed))),
         }

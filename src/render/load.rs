@@ -1,5 +1,5 @@
-//! What a render needs before anything is uploaded. Input: a scene, options, and the backends. Output: open devices, the
-//! packed scene with its textures, and an empty film; all are made at the same time, as each of them mostly waits.
+//! What a render needs before anything is uploaded. Input: a scene, options, and the backends. Output: open devices among
+//! what is kept, the packed scene with its textures, and an empty film; all are made at the same time, as each of them mostly waits.
 
 use std::collections::HashSet;
 use std::sync::{Arc, mpsc};
@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use super::kept::{Kept, KeptTextures, Origin};
 use super::options::{On, Options};
 use super::rivals::RivalScenes;
 use crate::core::error::Result;
@@ -16,7 +17,6 @@ use crate::pack::{self, MipPlacement, PackedScene};
 use crate::scene::model::Scene;
 use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::AllowedFloats;
-use crate::texture::load::load_with_notes;
 
 /// Pixels of films whose memory is made present beforehand, and of a page of that memory.
 const LARGE_FILM: usize = 1 << 16;
@@ -24,8 +24,6 @@ const PIXELS_OF_PAGE: usize = 4096 / size_of::<[f32; 3]>();
 
 /// The inputs of a render, before anything is uploaded.
 pub(super) struct Loaded {
-    /// The devices among the backends, in order.
-    pub(super) gpus: Vec<Gpu>,
     pub(super) packed: PackedScene,
     /// Warnings about the textures.
     pub(super) doubts: Vec<String>,
@@ -35,25 +33,29 @@ pub(super) struct Loaded {
     pub(super) load: f64,
 }
 
-/// Loads the scene while the devices open.
-pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
+/// Loads the scene while the devices open, unless they are kept.
+pub(super) fn load(scene: &Scene, options: &Options, on: &[On], kept: &mut Kept) -> Result<Loaded> {
+    let Kept { gpus: open, textures } = kept;
     std::thread::scope(|scope| {
         let start = Instant::now();
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
             let rivals = if on.len() == 1 { RivalScenes::of(scene, options) } else { RivalScenes::default() };
-            let packed = pack(scene, options, rivals, || told.recv().unwrap_or_default());
+            let packed = pack(scene, options, rivals, textures, || told.recv().unwrap_or_default());
             (packed, start.elapsed().as_secs_f64())
         });
         let selects = on.iter().filter_map(|on| match on {
             On::Device(select) => Some(select),
             On::Oracle => None,
         });
-        let gpus: Result<Vec<Gpu>> = selects.map(Gpu::open).collect();
+        let opened: Result<()> = match open.is_empty() {
+            true => selects.map(Gpu::open).collect::<Result<_>>().map(|gpus| *open = gpus),
+            false => Ok(()),
+        };
         let startup = if on == [On::Oracle] { 0.0 } else { start.elapsed().as_secs_f64() };
         // Several backends, or the oracle, read the same levels: those that the host generates.
-        let mip_chains = match gpus.as_deref() {
-            Ok([gpu]) if on.len() == 1 => options.mips.mip_chains(gpu.info()),
+        let mip_chains = match &open[..] {
+            [gpu] if on.len() == 1 => options.mips.mip_chains(gpu.info()),
             _ => MipPlacement::Host,
         };
         // The receiver is gone if the scene does not need it.
@@ -62,7 +64,7 @@ pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded
         // An error in the scene takes precedence over one of the machine.
         packed.and_then(|packed| {
             let Packed { packed, doubts, rivals } = packed;
-            Ok(Loaded { gpus: gpus?, packed, doubts, rivals, startup, load })
+            opened.map(|()| Loaded { packed, doubts, rivals, startup, load })
         })
     })
 }
@@ -80,27 +82,36 @@ fn pack(
     scene: &Scene,
     options: &Options,
     mut rivals: RivalScenes,
+    kept: &mut KeptTextures,
     mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<Packed> {
     let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
     // All first: of several faults, the one of the first texture is told.
-    let textures: Vec<Result<_>> = scene.textures.par_iter().map(|t| load_with_notes(t, values)).collect();
+    // Before they are read: a file that changes meanwhile is read again.
+    let origins: Vec<Origin> = scene.textures.iter().map(|t| Origin::now(t, values)).collect();
+    let textures: Vec<Result<_>> = origins.par_iter().map(|origin| kept.load(origin)).collect();
     let textures = textures.into_iter().collect::<Result<Vec<_>>>()?;
+    kept.keep(origins, &textures);
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
     // Several textures may be of one file.
     let mut told = HashSet::new();
     let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
     let doubts: Vec<String> = notes.chain(of_textures(scene, &textures)).collect();
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
-    let kept = (!rivals.is_empty()).then(|| textures.clone());
+    let copies = (!rivals.is_empty()).then(|| textures.clone());
     let packed = pack::pack_with(scene, textures, options.crop, mip_chains)?;
     // Beams may have kept them already.
-    rivals.textures = packed.beam_textures.clone().or(kept.map(Arc::new));
+    rivals.textures = packed.beam_textures.clone().or(copies.map(Arc::new));
     Ok(Packed { packed, doubts, rivals })
 }
 
 /// Loads as [`load`] does, and makes an empty film of the picture meanwhile.
-pub(super) fn load_with_film(scene: &Scene, options: &Options, on: &[On]) -> Result<(Loaded, Film)> {
+pub(super) fn load_with_film(
+    scene: &Scene,
+    options: &Options,
+    on: &[On],
+    kept: &mut Kept,
+) -> Result<(Loaded, Film)> {
     std::thread::scope(|scope| {
         let film = scope.spawn(|| {
             let whole = [scene.width, scene.height];
@@ -108,7 +119,7 @@ pub(super) fn load_with_film(scene: &Scene, options: &Options, on: &[On]) -> Res
             let size = crop.map_or(whole, |crop| [crop.width, crop.height]);
             empty_film(size)
         });
-        let loaded = load(scene, options, on);
+        let loaded = load(scene, options, on, kept);
         let film = film.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         loaded.map(|loaded| (loaded, film))
     })

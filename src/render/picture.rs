@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use super::Report;
 use super::backend::DeviceBackend;
+use super::kept::Kept;
 use super::load::{Loaded, load_with_film};
 use super::options::{On, Options};
 use super::plan::integrator;
@@ -41,7 +42,7 @@ pub struct Picture {
     pub estimates: Option<PixelEstimates>,
     /// For each texture its name and the number of texels that are NaN or infinite.
     pub nonfinite: Vec<(String, u64)>,
-    /// Held until the picture is written.
+    /// Held until the picture is written, unless the devices are kept.
     _closing: Arc<Closing>,
 }
 
@@ -96,14 +97,29 @@ impl Working<'_> {
 /// Renders a scene on one backend, or on several at once. Strips of the picture are assigned to the backends
 /// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
-    let (loaded, film) = load_with_film(scene, options, on)?;
-    let Loaded { gpus, mut packed, doubts, rivals, startup, load } = loaded;
+    let mut kept = Kept::default();
+    let mut picture = render_kept(scene, options, on, &mut kept, progress)?;
+    picture._closing = Arc::new(Closing::begin(kept.gpus));
+    Ok(picture)
+}
+
+/// Renders as [`render_scene`] does, with the devices and textures of earlier renders on the same backends.
+pub fn render_kept(
+    scene: &Scene,
+    options: &Options,
+    on: &[On],
+    kept: &mut Kept,
+    progress: &dyn Progress,
+) -> Result<Picture> {
+    let (loaded, film) = load_with_film(scene, options, on, kept)?;
+    let Loaded { mut packed, doubts, rivals, startup, load } = loaded;
+    let gpus = &kept.gpus[..];
     packed.diagnosed = options.diagnosed;
     let texture_lines = packed.texture_lines();
     let nonfinite =
         packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied()).collect();
     let Integration { mut integrated, mut report, device } =
-        integrate(packed, rivals, film, options, on, &gpus, progress)?;
+        integrate(packed, rivals, film, options, on, gpus, progress)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
     report.warnings.splice(..0, doubts);
     let estimates = integrated.estimates.take();
@@ -111,13 +127,13 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
         film: report.take(integrated),
         report,
         device,
-        driver: drivers(on, &gpus),
+        driver: drivers(on, gpus),
         devices: gpus.iter().map(|gpu| gpu.info().clone()).collect(),
         messages: gpus.iter().flat_map(Gpu::messages).collect(),
         texture_lines,
         estimates,
         nonfinite,
-        _closing: Arc::new(Closing::begin(gpus)),
+        _closing: Arc::default(),
     })
 }
 
@@ -187,7 +203,7 @@ fn integrate(
 }
 
 /// Devices that are closed while their picture is written: some drivers take a while.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Closing(Option<JoinHandle<()>>);
 
 impl Closing {

@@ -4,6 +4,7 @@
 pub mod advice;
 mod bsdf;
 pub mod builder;
+mod built_in;
 mod camera;
 mod chance;
 #[allow(missing_docs)]
@@ -29,6 +30,7 @@ mod tiles;
 mod whole;
 
 pub use builder::SceneBuilder;
+pub use built_in::BuiltIn;
 pub use formats::{Reading, STANDARD_INPUT, is_standard_input, load, load_as, load_seen_by, parse};
 pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};
 pub use setting::Setting;

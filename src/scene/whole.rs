@@ -23,7 +23,7 @@ use crate::core::error::Result;
 pub struct Scene(model::Scene);
 
 impl Scene {
-    /// Reads a scene file, or standard input if the path is `-`. The ending of the path selects the format. Textures
+    /// Reads a scene file, a scene of the program if the path is `@NAME`, or standard input if it is `-`. The ending of the path selects the format. Textures
     /// are named, not opened.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Scene> {
         load(path.as_ref()).map(Scene)

@@ -4,7 +4,6 @@
 //! (spacings, space, kinds of the other axes, …) are ignored. Errors name line and field.
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -15,6 +14,7 @@ use super::read_file::{Texels, unreadable};
 use super::scalar::{NumberKind, Scalar};
 use super::source::Endian;
 use super::volume::RawTexels;
+use crate::core::built_in::Opened;
 use crate::core::error::{Error, Result};
 
 /// The length limit of a header line: a longer one is not a header.
@@ -48,7 +48,7 @@ struct Skips {
 }
 
 fn read_data(
-    mut source: BufReader<File>,
+    mut source: BufReader<Opened>,
     layout: &RawTexels,
     endian: Endian,
     skips: Skips,
@@ -59,7 +59,7 @@ fn read_data(
     for _ in 0..skips.lines {
         source.skip_until(b'\n').map_err(failed)?;
     }
-    let length = source.get_ref().metadata().map_err(failed)?.len();
+    let length = source.get_ref().length().map_err(failed)?;
     if skips.bytes < 0 {
         source.seek(SeekFrom::Start(length.saturating_sub(layout.bytes()))).map_err(failed)?;
     }

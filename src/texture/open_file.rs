@@ -1,22 +1,27 @@
 //! Opens a picture file, or returns an error that explains what is wrong with the path or suggests
 //! which file may be meant.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
 use super::formats::supported;
 use super::read_file::{identify, no_picture, unreadable};
 use super::sniff::{self, Content, HEAD_BYTES};
+use crate::core::built_in::{self, Opened};
 use crate::core::error::{Error, Result};
 
-pub(super) fn open(path: &Path) -> Result<File> {
+pub(super) fn open(path: &Path) -> Result<Opened> {
+    let failed = |error| unreadable(path, &error);
+    if built_in::bytes(path).is_some() {
+        return Opened::new(path).map_err(failed);
+    }
     let metadata = fs::metadata(path).map_err(|e| match e.kind() {
         ErrorKind::NotFound => {
             let shown: String = path.to_string_lossy().chars().flat_map(escaped).collect();
             Error::new(format!("{shown}: there is no such file")).and_help(hint(path))
         }
-        _ => unreadable(path, &e),
+        _ => failed(e),
     })?;
     if !metadata.is_file() {
         let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
@@ -25,7 +30,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
             format!("name a picture file; supported are {}", supported()),
         ));
     }
-    File::open(path).map_err(|e| unreadable(path, &e))
+    Opened::new(path).map_err(failed)
 }
 
 /// Refuses a file that is none of the pictures that can be read, by its first bytes.

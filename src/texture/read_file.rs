@@ -122,7 +122,7 @@ fn read_part(path: &Path, reading: &ReadOptions, window: ExrWindow) -> Result<Pi
     let stage = format!("{}: reading this picture", path.display());
     panics::contain(&stage, || {
         let file = open(path)?;
-        let length = file.metadata().map_err(|e| unreadable(path, &e))?.len() as usize;
+        let length = file.length().map_err(|e| unreadable(path, &e))? as usize;
         read_by_content(file, length, path, reading, window)
     })
 }
@@ -199,7 +199,7 @@ pub fn is_turned(path: &Path) -> bool {
     match identify(&mut source) {
         Ok(Content::Picture(PictureFormat::OpenExr)) => false,
         Ok(Content::Picture(format)) => {
-            let length = source.metadata().map_or(0, |metadata| metadata.len() as usize);
+            let length = source.length().map_or(0, |length| length as usize);
             read_whole(source, length, path).is_ok_and(|file| orientation_of(&file, format).is_some())
         }
         _ => false,

@@ -18,7 +18,7 @@ pub(super) fn read(volume: &VolumeSource) -> Result<Texels> {
     let path = volume.file.as_path();
     check_volume(path, volume.size, volume.format.bytes_per_texel())?;
     let mut file = BufReader::new(open(path)?);
-    let length = file.get_ref().metadata().map_err(|e| unreadable(path, &e))?.len();
+    let length = file.get_ref().length().map_err(|e| unreadable(path, &e))?;
     let [width, height, depth] = volume.size;
     let needed = width as usize * height as usize * depth as usize * volume.format.bytes_per_texel();
     let end = volume.offset + needed as u64;

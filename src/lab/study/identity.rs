@@ -6,8 +6,10 @@
 use std::fs;
 use std::path::Path;
 
+use crate::core::built_in;
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
+use crate::scene::BuiltIn;
 use crate::scene::model::Scene;
 
 use super::record::Conditions;
@@ -69,6 +71,10 @@ pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
 }
 
 pub fn file(hash: Hash, path: &Path) -> Result<Hash> {
+    let own = BuiltIn::named(path)?.map(BuiltIn::path);
+    if let Some(bytes) = built_in::bytes(own.as_deref().unwrap_or(path)) {
+        return Ok(hash.bytes(bytes));
+    }
     let bytes = fs::read(path).map_err(|e| Error::new(format!("{}: cannot be read: {e}", path.display())))?;
     Ok(hash.bytes(&bytes))
 }

@@ -10,17 +10,19 @@ mod mesh_scene;
 mod mtl;
 mod toml;
 
-use std::fs::File;
 use std::io::{ErrorKind as Io, Read};
 use std::path::Path;
 
+use super::built_in::BuiltIn;
 use super::model::Scene;
 use super::setting::Setting;
+use crate::core::built_in::{self, Opened};
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
 use crate::mesh::Fault;
 use crate::texture::open_file::odd_path;
 pub use toml::parse;
+pub(super) use toml::suggestion;
 
 /// A format of scene files.
 struct Format {
@@ -59,7 +61,8 @@ pub fn is_standard_input(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Reads a scene file, or standard input if the path is `-`; paths in it are then relative to the current folder.
+/// Reads a scene file, a scene of the program if the path is `@NAME`, or standard input if it is `-`; paths in it are
+/// then relative to the current folder.
 /// Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
     load_as(path, &Reading::default())
@@ -83,6 +86,13 @@ pub fn load_as(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
             let bytes = bytes_of(std::io::stdin().lock(), 0, SCENE, path, format.max_bytes)?;
             foreign::check_beginning(path, &bytes)?;
             return (format.read)(path, bytes, reading);
+        }
+        if let Some(built_in) = BuiltIn::named(path)? {
+            no_camera(&stage, camera)?;
+            let [format, ..] = &FORMATS;
+            let mut scene = (format.read)(&built_in.path(), built_in.text().into(), reading)?;
+            scene.path = path.to_owned();
+            return Ok(scene);
         }
         if mesh_file::is_mesh(path) {
             return mesh_scene::read(path, reading);
@@ -138,16 +148,17 @@ fn read_file(kind: &str, formats: &[&str], path: &Path, most: u64) -> Result<Vec
         return Err(unreadable(kind, path, "it is a folder").and_help(Some(help)));
     }
     // Opening a pipe waits for whoever writes; a scene may come from one.
-    let is_special = || path.metadata().is_ok_and(|known| !known.is_file());
+    let is_special =
+        || built_in::bytes(path).is_none() && path.metadata().is_ok_and(|known| !known.is_file());
     if kind != SCENE && is_special() {
         let help = format!("name a {kind} file ({}) on a disk", formats.join(", "));
         return Err(unreadable(kind, path, "it is not a regular file").and_help(Some(help)));
     }
-    let file = File::open(path).map_err(|error| {
+    let file = Opened::new(path).map_err(|error| {
         let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);
         unreadable(kind, path, &error.to_string()).and_help(help)
     })?;
-    let expected = file.metadata().map_or(0, |known| known.len().min(most));
+    let expected = file.length().map_or(0, |length| length.min(most));
     bytes_of(file, expected, kind, path, most)
 }
 
