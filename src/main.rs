@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use moire::internal::cli::{
-    self, compare, devices, inspect, pattern, render, stability, study, texture, verify,
+    self, compare, devices, inspect, new, pattern, render, stability, study, texture, verify,
 };
 use moire::internal::core::error::Result;
 use moire::internal::core::panics;
@@ -22,6 +22,8 @@ struct Cli {
 enum Command {
     /// Render a scene file into one or more pictures
     Render(Box<render::RenderArgs>),
+    /// Write a short scene that renders at once, from your files or from a scene of the program
+    New(new::NewArgs),
     /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
     /// Show what a view needs of its textures, and which settings suit it
@@ -53,6 +55,7 @@ impl Command {
     fn name(&self) -> &'static str {
         match self {
             Command::Render(_) => "render",
+            Command::New(_) => "new",
             Command::Study(_) => "study",
             Command::Inspect(_) => "inspect",
             Command::Compare(_) => "compare",
@@ -67,6 +70,7 @@ impl Command {
     fn run(self) -> Result<ExitCode> {
         match self {
             Command::Render(args) => render::run(&args),
+            Command::New(args) => new::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Inspect(args) => inspect::run(&args),
             Command::Compare(args) => compare::run(&args),

@@ -4,6 +4,7 @@ pub mod compare;
 pub mod devices;
 pub mod inspect;
 mod layers;
+pub mod new;
 mod outputs;
 mod overrides;
 pub mod pattern;

@@ -31,7 +31,9 @@ mod whole;
 
 pub use builder::SceneBuilder;
 pub use built_in::BuiltIn;
-pub use formats::{Reading, STANDARD_INPUT, is_standard_input, load, load_as, load_seen_by, parse};
+pub use formats::{
+    Reading, STANDARD_INPUT, is_model, is_standard_input, load, load_as, load_seen_by, model_view, parse,
+};
 pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};
 pub use setting::Setting;
 pub use whole::Scene;

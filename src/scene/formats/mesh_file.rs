@@ -76,7 +76,7 @@ pub(super) struct Unsuited {
 }
 
 /// Returns whether the ending of a file's name is that of meshes.
-pub(super) fn is_mesh(path: &Path) -> bool {
+pub fn is_mesh(path: &Path) -> bool {
     let ending = ending_of(path);
     GLTF.contains(&ending.as_str()) || format_of(&ending).is_some()
 }

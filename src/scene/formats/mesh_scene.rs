@@ -33,21 +33,7 @@ pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
     builder.keep_meshes(reading.keeps_meshes);
     let file = MeshFile::open(path, &mut builder)?;
     let unknown = |what| Error::new(format!("--camera: {}: {what}", path.display()));
-    let (camera, aspect) =
-        file.camera(reading.camera).map_err(unknown)?.unwrap_or_else(|| (camera_of(file.bounds()), 1.0));
-    let mut view = View {
-        camera,
-        size: [(f64::from(SIZE) * aspect).round() as u32, SIZE],
-        pixel_filter: PixelFilter::default(),
-        sampling: Sampling { footprint: Footprint::Differentials, ..Sampling::default() },
-        background: DVec3::splat(BACKGROUND),
-        lights: file.lights(),
-    };
-    if view.lights.is_empty() {
-        let light =
-            |(direction, irradiance)| Light::Directional { direction, irradiance: DVec3::splat(irradiance) };
-        view.lights.extend(LIGHTS.map(light));
-    }
+    let mut view = view(&file, reading.camera).map_err(unknown)?;
     if !reading.settings.is_empty() {
         builder.settings(reading.settings);
         view = view.changed(path, reading.settings)?;
@@ -65,6 +51,41 @@ pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
     let scene = builder.check().map_err(|refusal| failed(refusal.to_string()))?;
     check_filters(&scene)?;
     Ok(scene)
+}
+
+/// Returns what a scene of the file has beside its surfaces.
+fn view(file: &MeshFile, chosen: Option<&str>) -> Result<View, String> {
+    let (camera, aspect) = file.camera(chosen)?.unwrap_or_else(|| (camera_of(file.bounds()), 1.0));
+    let mut view = View {
+        camera,
+        size: [(f64::from(SIZE) * aspect).round() as u32, SIZE],
+        pixel_filter: PixelFilter::default(),
+        sampling: Sampling { footprint: Footprint::Differentials, ..Sampling::default() },
+        background: DVec3::splat(BACKGROUND),
+        lights: file.lights(),
+    };
+    if view.lights.is_empty() {
+        let light =
+            |(direction, irradiance)| Light::Directional { direction, irradiance: DVec3::splat(irradiance) };
+        view.lights.extend(LIGHTS.map(light));
+    }
+    Ok(view)
+}
+
+/// Returns camera, picture, sampling, background and lights of a model as the text of a scene, in round numbers.
+pub fn model_view(path: &Path) -> Result<String> {
+    let mut builder = SceneBuilder::new(camera_of([DVec3::ZERO; 2]), SIZE, SIZE);
+    let file = MeshFile::open(path, &mut builder)?;
+    let mut view = view(&file, None).map_err(Error::new)?;
+    for vector in [&mut view.camera.eye, &mut view.camera.look_at] {
+        *vector = vector.map(rounded);
+    }
+    Ok(view.text())
+}
+
+/// Returns a number to five digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.4e}").parse().unwrap_or(number)
 }
 
 /// Returns the camera that sees the ball around the mesh's box.

@@ -21,6 +21,8 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
 use crate::mesh::Fault;
 use crate::texture::open_file::odd_path;
+pub use mesh_file::is_mesh as is_model;
+pub use mesh_scene::model_view;
 pub use toml::parse;
 pub(super) use toml::suggestion;
 

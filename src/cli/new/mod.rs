@@ -1,0 +1,192 @@
+//! `moire new`: writes a short scene that renders at once. Input: what to show, and files of pictures or a model, at which it
+//! looks; or a scene of the program. Output: a commented scene file, with the files of the program that it names beside it.
+
+mod copies;
+mod names;
+mod paths;
+mod photo;
+mod surface;
+mod text;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use crate::core::error::{Error, ErrorKind, Result};
+use crate::core::named::named_enum;
+use crate::lab::study::quote;
+use crate::output;
+use crate::scene::{BuiltIn, is_model, parse};
+use copies::Copies;
+use photo::Photo;
+use surface::Surface;
+
+named_enum! {
+    /// What a new scene shows.
+    pub enum Kind {
+        /// A floor up to the horizon.
+        Floor = "floor",
+        /// A ball on the ground.
+        Ball = "ball",
+        /// The picture itself, which fills the image.
+        Quad = "quad",
+        /// A model, seen whole.
+        Model = "model",
+    }
+}
+
+/// Write a short scene that renders at once, from your files or from a scene of the program
+///
+/// Pictures are looked at: color space, orientation, alpha, whether their borders fit together, and what they are by the
+/// usual names of an artist's set (albedo, normal, roughness, …). Comments of the scene say what was chosen and why.
+#[derive(clap::Args, Debug)]
+pub struct NewArgs {
+    /// floor, ball, quad or model, the file of a model, or @NAME for a copy of a scene of the program [default: floor]
+    what: Option<PathBuf>,
+    /// File of the model (glTF, OBJ, PLY, STL)
+    model: Option<PathBuf>,
+    /// Picture for the surface, or the model. May be given several times: colors, normal map, roughness, sky
+    #[arg(short, long = "texture", value_name = "FILE")]
+    texture: Vec<PathBuf>,
+    /// Scene file to write [default: what it shows with .toml, in the current folder]
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
+    /// List the scenes of the program, each with what it shows
+    #[arg(long, conflicts_with_all = ["what", "model", "texture", "output", "force"])]
+    list: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub fn run(args: &NewArgs) -> Result<ExitCode> {
+    if args.list {
+        return list();
+    }
+    if let Some(what) = &args.what
+        && let Some(scene) = BuiltIn::named(what)?
+    {
+        return copy(args, scene);
+    }
+    let (kind, model, pictures) = subject(args)?;
+    let out = args.output.clone().unwrap_or_else(|| format!("{}.toml", kind.name()).into());
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let mut copies = Copies::default();
+    let is_empty = pictures.is_empty() && model.is_none();
+    let photos = match is_empty {
+        true => {
+            copies.samples(kind).into_iter().map(|path| Photo::look(&path)).collect::<Result<Vec<_>>>()?
+        }
+        false => pictures.iter().map(|path| Photo::look(path)).collect::<Result<Vec<_>>>()?,
+    };
+    let model = model.or_else(|| (kind == Kind::Model).then(|| copies.model()));
+    let surface = Surface::new(photos, kind);
+    let writer = text::Writer { kind, surface: &surface, model: model.as_deref(), folder };
+    let text = writer.scene()?;
+    // It is read again, so that it can be rendered.
+    parse(&copies.place(&out), &text).map_err(|error| {
+        let what = format!("{}: the new scene cannot be read: {error}", out.display());
+        Error::new(what).of_kind(ErrorKind::Internal)
+    })?;
+    write(args, &out, &text, &copies)?;
+    if !args.quiet {
+        surface.left_out.iter().for_each(|why| super::notify(format_args!("left out: {why}")));
+        told(&out, &copies);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn list() -> Result<ExitCode> {
+    let scenes = BuiltIn::all();
+    let width = scenes.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+    let line = |scene: &BuiltIn| format!("@{:width$}  {}", scene.name, scene.summary());
+    super::print(&scenes.iter().map(line).collect::<Vec<_>>().join("\n"))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes a scene of the program with its files.
+fn copy(args: &NewArgs, scene: BuiltIn) -> Result<ExitCode> {
+    if let Some(file) = args.model.as_ref().or(args.texture.first()) {
+        return Err(Error::with_help(
+            format!("{}: a copy of {} has files of its own", file.display(), scene.shown()),
+            "write the copy first, and name the file in it; or try --set with `moire render`",
+        ));
+    }
+    let out = args.output.clone().unwrap_or_else(|| format!("{}.toml", scene.name).into());
+    let (text, copies) = copies::of_scene(scene)?;
+    write(args, &out, &text, &copies)?;
+    if !args.quiet {
+        told(&out, &copies);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Returns what is shown, the model, and the pictures.
+fn subject(args: &NewArgs) -> Result<(Kind, Option<PathBuf>, Vec<PathBuf>)> {
+    let (models, pictures): (Vec<_>, Vec<_>) =
+        args.model.iter().chain(&args.texture).cloned().partition(|path| is_model(path));
+    let mut models = models.into_iter();
+    let (named, first) = match &args.what {
+        None => (None, None),
+        Some(path) if is_model(path) => (Some(Kind::Model), Some(path.clone())),
+        Some(word) => {
+            let kind = word.to_str().and_then(Kind::from_name).ok_or_else(|| {
+                let what = format!("{}: expected one of {}", word.display(), Kind::NAMES.join(", "));
+                Error::with_help(
+                    what,
+                    "a scene of the program begins with @, such as @lecture; name a picture with -t",
+                )
+            })?;
+            (Some(kind), None)
+        }
+    };
+    let model = first.or_else(|| models.next());
+    if let Some(second) = models.next() {
+        let what = format!("{}: a second model; a new scene shows one", second.display());
+        return Err(Error::with_help(what, "add further [[mesh]] sections to the scene"));
+    }
+    if let Some(file) = args.model.as_ref().filter(|file| !is_model(file)) {
+        let what = format!("{}: expected the file of a model (glTF, OBJ, PLY, STL)", file.display());
+        return Err(Error::with_help(what, "name a picture with -t"));
+    }
+    let kind = named.unwrap_or(if model.is_some() { Kind::Model } else { Kind::Floor });
+    if let (Some(model), true) = (&model, kind != Kind::Model) {
+        let what = format!("{}: this is a model, and a {kind} has none", model.display());
+        return Err(Error::with_help(what, "`moire new model` shows it"));
+    }
+    Ok((kind, model, pictures))
+}
+
+/// Writes the scene and the files of the program beside it, unless one of them would replace another file.
+fn write(args: &NewArgs, out: &Path, text: &str, copies: &Copies) -> Result<()> {
+    for input in args.texture.iter().chain(&args.model).chain(&args.what) {
+        super::check_input_kept(out, input, "a file of the scene")?;
+    }
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let beside: Vec<(PathBuf, &[u8])> =
+        copies.files().map(|(name, bytes)| (folder.join(name), bytes)).collect();
+    for (path, bytes) in
+        beside.iter().map(|(path, bytes)| (path.as_path(), *bytes)).chain([(out, text.as_bytes())])
+    {
+        output::check_file_writable(path)?;
+        let is_other = path.exists() && std::fs::read(path).map_or(true, |there| there != bytes);
+        if is_other && !args.force {
+            return Err(Error::with_help(
+                format!("{}: the file exists", path.display()),
+                "choose another name with -o, or replace it with --force",
+            ));
+        }
+    }
+    // The scene last: where it is, its files are.
+    beside.iter().try_for_each(|(path, bytes)| output::write_file(path, bytes))?;
+    output::write_file(out, text.as_bytes())
+}
+
+fn told(out: &Path, copies: &Copies) {
+    let names: Vec<&str> = copies.files().map(|(name, _)| name).collect();
+    let beside = if names.is_empty() { String::new() } else { format!(", beside it {}", names.join(", ")) };
+    super::notify(format_args!("{}{beside}", out.display()));
+    super::notify(format_args!("moire render {}", quote(&out.display().to_string())));
+}
