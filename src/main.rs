@@ -22,7 +22,7 @@ struct Cli {
 enum Command {
     /// Render a scene file into one or more pictures
     Render(Box<render::RenderArgs>),
-    /// Write a short scene that renders at once, from your files or from a scene of the program
+    /// Write a scene of your pictures or model, or copy one of the program
     New(new::NewArgs),
     /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::formats::suggestion;
+use super::suggestion::suggestion;
 use crate::core::built_in;
 use crate::core::error::{Error, ErrorKind, Result};
 
@@ -11,6 +11,8 @@ use crate::core::error::{Error, ErrorKind, Result};
 const MARK: char = '@';
 const FOLDER: &str = "scenes/";
 const ENDING: &str = ".toml";
+/// In characters.
+const LONGEST_SUMMARY: usize = 100;
 
 /// A scene of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,11 +70,15 @@ impl BuiltIn {
         built_in::bytes(&self.path()).and_then(|bytes| std::str::from_utf8(bytes).ok()).unwrap_or_default()
     }
 
-    /// Returns the first sentence of its opening comment.
+    /// Returns the first sentence of its opening comment, not too much of it.
     pub fn summary(self) -> String {
         let comment = self.text().lines().map_while(|line| line.strip_prefix('#')).map(str::trim);
         let text = comment.take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
-        let end = [". ", ": ", "; "].iter().filter_map(|end| text.find(end)).min();
-        text[..end.unwrap_or(text.len())].trim_end_matches(['.', ':']).to_owned()
+        let sentence = text.split(". ").next().unwrap_or_default().trim_end_matches(['.', ':']);
+        if sentence.chars().count() <= LONGEST_SUMMARY {
+            return sentence.to_owned();
+        }
+        let head: String = sentence.chars().take(LONGEST_SUMMARY).collect();
+        format!("{} …", head.rsplit_once(' ').map_or(&*head, |(words, _)| words))
     }
 }

@@ -24,6 +24,7 @@ mod refusal;
 mod sampling;
 mod setting;
 mod shorthands;
+mod suggestion;
 pub mod synonyms;
 pub mod texture_advice;
 mod tiles;

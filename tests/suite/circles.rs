@@ -29,6 +29,7 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["render.backend", "render.session"], "a session's renders, and the backend that they are"),
     (&["pack.geometry", "pack.precision"], "how shapes are packed depends on the numbers that they need"),
     (&["render.layer_samples", "render.layers"], "layers, and the samples that some of them count"),
+    (&["cli.render", "cli.watch"], "a render, and the same again when files change"),
     (&["lab.inspect"], "the page of a folder"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
 ];

@@ -20,7 +20,7 @@ fn new(folder: &Path, arguments: &[&OsStr]) -> Output {
 }
 
 fn words<'a>(words: &[&'a str]) -> Vec<&'a OsStr> {
-    words.iter().map(OsStr::new).collect()
+    words.iter().map(|word| OsStr::new(*word)).collect()
 }
 
 /// Runs it, and reads the scene that it says to have written.

@@ -297,7 +297,7 @@ fn every_key_listed_as_allowed_is_read() {
         ("[[material]]\nname = 'x'\n", 30),
         ("[sampling]\n", 8),
         ("[background]\n", 6),
-        ("[image]\nwidth = 1\nheight = 1\n", 4),
+        ("[image]\nwidth = 1\nheight = 1\n", 5),
         ("[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n", 6),
         ("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", 4),
         ("[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n", 5),

@@ -34,7 +34,7 @@ named_enum! {
     }
 }
 
-/// Write a short scene that renders at once, from your files or from a scene of the program
+/// Write a short scene that renders at once, of your pictures or model, or a copy of a scene of the program
 ///
 /// Pictures are looked at: color space, orientation, alpha, whether their borders fit together, and what they are by the
 /// usual names of an artist's set (albedo, normal, roughness, …). Comments of the scene say what was chosen and why.

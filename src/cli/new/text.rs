@@ -148,7 +148,7 @@ impl Writer<'_> {
         };
         let file = toml_string(&relative(&photo.path, self.folder)?);
         let _ = write!(text, "\nname = \"{name}\"\nfile = {file}\ncolor_space = \"{space}\"");
-        let _ = writeln!(text, "{:1$}# {why}", "", 15 - space.name().len());
+        let _ = writeln!(text, "{:1$}# {why}", "", 14 - space.name().len());
         Ok(text)
     }
 
@@ -207,7 +207,7 @@ impl Writer<'_> {
 
     fn reflection(&self, line: &mut impl FnMut(&str)) {
         let surface = self.surface;
-        let mean = |value: f64| format!("{:.2}", value.clamp(0.0, 1.0));
+        let mean = |value: f64| format!("{:?}", (100.0 * value.clamp(0.0, 1.0)).round() / 100.0);
         if surface.packed.is_some() {
             line("metallic_roughness_map = \"packed\"");
             return;
@@ -241,7 +241,7 @@ impl Writer<'_> {
         };
         let filter = if self.kind == Kind::Quad { "linear" } else { "anisotropic" };
         format!(
-            "\n[[sampler]]\nname = \"surface\"\naddress = {address} # {why}\nfilter = \"{filter}\"\nmip = \"linear\"\n"
+            "\n[[sampler]]\nname = \"surface\"\naddress = {address:20}# {why}\nfilter = \"{filter}\"\nmip = \"linear\"\n"
         )
     }
 

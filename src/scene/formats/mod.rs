@@ -24,7 +24,6 @@ use crate::texture::open_file::odd_path;
 pub use mesh_file::is_mesh as is_model;
 pub use mesh_scene::model_view;
 pub use toml::parse;
-pub(super) use toml::suggestion;
 
 /// A format of scene files.
 struct Format {

@@ -33,7 +33,6 @@ use names::Names;
 use procedural::PROCEDURAL;
 use samplers::Known;
 use source::Source;
-pub(in crate::scene) use source::suggestion;
 use table::Table;
 pub(in crate::scene) use view::View;
 

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use super::reader::Field;
-use super::source::{quoted, suggestion};
 use super::table::Table;
 use crate::core::error::Result;
+use crate::scene::suggestion::{quoted, suggestion};
 
 /// Most names that a message lists.
 const MAX_LISTED: usize = 12;

@@ -8,8 +8,9 @@ use glam::{DVec2, DVec3};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::source::{Source, quoted, suggestion};
+use super::source::Source;
 use crate::core::error::{Error, Result};
+use crate::scene::suggestion::{quoted, suggestion};
 
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {

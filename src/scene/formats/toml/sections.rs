@@ -77,7 +77,8 @@ fn projection(table: &Table<'_>) -> Result<Projection> {
 pub(super) fn image(table: &Table<'_>) -> Result<(u32, u32)> {
     if let Some(field) = table.get("size") {
         if let Some(other) = ["width", "height"].iter().find_map(|key| table.get(key)) {
-            return Err(other.error("size is given too; keep size, or width and height", "excludes size"));
+            let what = format!("{} is given too; keep size, or width and height", other.key);
+            return Err(field.error(&what, format!("excludes {}", other.key)));
         }
         let [width, height] =
             field.array("2 integers, width and height", [0; 2], |field| field.integer(&SIZE))?;

@@ -7,10 +7,11 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use super::names::listed;
-use super::source::{Source, quoted, suggestion};
+use super::source::Source;
 use super::vocabulary::replaced_by;
 use crate::core::error::{Error, Result};
 use crate::scene::setting::{Key, Setting};
+use crate::scene::suggestion::{quoted, suggestion};
 
 /// The word for all tables of a section.
 const ALL: &str = "*";

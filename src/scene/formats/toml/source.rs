@@ -1,6 +1,6 @@
 //! A scene's text and its path, and the settings given beside it, whose positions lie behind the text. Input: a byte range
 //! and a message. Output: an [`Error::Scene`] whose one-line message names file, line and column (both from 1, columns in
-//! characters), or the setting; also excerpts and suggestions for messages.
+//! characters), or the setting; also excerpts for messages.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -10,10 +10,7 @@ use miette::NamedSource;
 
 use crate::core::error::Error;
 use crate::scene::setting::Setting;
-use crate::scene::synonyms::meant;
-
-/// Longest excerpt or name that a message repeats, in characters.
-const LONGEST_EXCERPT: usize = 60;
+use crate::scene::suggestion::{LONGEST_EXCERPT, shorten};
 
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
@@ -134,54 +131,4 @@ fn one_line(text: &str) -> String {
         if is_break(c) { line.extend(c.escape_default()) } else { line.push(c) }
     }
     line
-}
-
-fn shorten(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_EXCERPT) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
-}
-
-pub(super) fn quoted(name: &str) -> String {
-    format!("\"{}\"", shorten(name))
-}
-
-/// Returns `; did you mean "x"?` for the candidate that `word` is a synonym or the most likely misspelling of, or
-/// nothing.
-pub(in crate::scene) fn suggestion<'c>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'c str> + Clone,
-) -> String {
-    let word = word.to_lowercase();
-    if let Some((name, also)) = meant(&word, candidates.clone()) {
-        let also = also.map_or(String::new(), |(key, value)| format!(" with {key} = \"{value}\""));
-        return format!("; did you mean {}{also}?", quoted(name));
-    }
-    let near =
-        candidates.into_iter().filter_map(|candidate| Some((unlikeness(&word, candidate)?, candidate)));
-    let best = near.min_by_key(|(unlikeness, _)| *unlikeness);
-    best.map_or_else(String::new, |(_, candidate)| format!("; did you mean {}?", quoted(candidate)))
-}
-
-/// Returns a measure of the difference; `None` for unrelated words. Misspellings (by edit distance) come before words
-/// that share a part.
-fn unlikeness(word: &str, candidate: &str) -> Option<usize> {
-    let lower = candidate.to_lowercase();
-    let (length, wanted) = (word.chars().count(), lower.chars().count());
-    // The distance costs the product of both lengths.
-    if length.max(wanted) > LONGEST_EXCERPT {
-        return None;
-    }
-    // A different first letter in a short word is more often another word ("cone", "none").
-    let other_start = length.min(wanted) <= 4 && word.chars().next() != lower.chars().next();
-    let allowed = if wanted <= 4 { 1 } else { wanted.div_ceil(3) };
-    let distance = strsim::damerau_levenshtein(word, &lower);
-    if distance <= allowed && !other_start {
-        return Some(distance);
-    }
-    // "fov" in "vertical_fov", "rotation" for "rotate".
-    let common = word.chars().zip(lower.chars()).take_while(|(a, b)| a == b).count();
-    let shares_part = length >= 3 && (lower.contains(word) || (common >= 4 && 4 * common >= 3 * wanted));
-    shares_part.then_some(LONGEST_EXCERPT + wanted)
 }

@@ -7,9 +7,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Field;
-use super::source::{Source, quoted, suggestion};
+use super::source::Source;
 use super::vocabulary::home_of;
 use crate::core::error::{Error, Result};
+use crate::scene::suggestion::{quoted, suggestion};
 
 /// The notation of a table, for messages.
 #[derive(Clone, Copy, PartialEq)]
