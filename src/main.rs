@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use moire::internal::cli::{
-    self, compare, devices, inspect, new, pattern, render, stability, study, texture, verify,
+    self, compare, devices, inspect, new, pattern, render, sheet, stability, study, texture, verify,
 };
 use moire::internal::core::error::Result;
 use moire::internal::core::panics;
@@ -26,6 +26,8 @@ enum Command {
     New(new::NewArgs),
     /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
+    /// Compare settings in one labelled picture or page
+    Sheet(Box<sheet::SheetArgs>),
     /// Show what a view needs of its textures, and which settings suit it
     Inspect(Box<inspect::InspectArgs>),
     /// Compare two pictures in linear RGB
@@ -57,6 +59,7 @@ impl Command {
             Command::Render(_) => "render",
             Command::New(_) => "new",
             Command::Study(_) => "study",
+            Command::Sheet(_) => "sheet",
             Command::Inspect(_) => "inspect",
             Command::Compare(_) => "compare",
             Command::Devices(_) => "devices",
@@ -72,6 +75,7 @@ impl Command {
             Command::Render(args) => render::run(&args),
             Command::New(args) => new::run(&args),
             Command::Study(args) => study::run(&args),
+            Command::Sheet(args) => sheet::run(&args),
             Command::Inspect(args) => inspect::run(&args),
             Command::Compare(args) => compare::run(&args),
             Command::Devices(args) => devices::run(&args),

@@ -9,12 +9,15 @@ mod outputs;
 mod overrides;
 pub mod pattern;
 mod progress;
+mod quantity;
 pub mod render;
 mod report;
+pub mod sheet;
 pub mod stability;
 pub mod study;
 pub mod texture;
 mod texture_levels;
+mod vary;
 pub mod verify;
 mod watch;
 

@@ -13,9 +13,10 @@ use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precis
 use crate::scene::{MAX_RADIUS, Reading, Setting};
 use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
+use super::quantity::{positive, seconds};
 use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Overrides {
     /// Camera of a glTF file, by its number from 0 or its name [default: the first]
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = OUTPUT)]
@@ -32,8 +33,8 @@ pub struct Overrides {
     /// Algorithm
     #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help_heading = SAMPLING)]
     algorithm: Option<Algorithm>,
-    /// Render for this time and then stop, with --algorithm auto unless another is named
-    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "target_error", help_heading = SAMPLING)]
+    /// Render for this time, such as 50ms, 2s or 0.05 (seconds), and then stop, with --algorithm auto unless another is named
+    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with = "target_error", help_heading = SAMPLING)]
     budget: Option<f64>,
     /// Render until the picture's RMSE is estimated to be this
     #[arg(long, value_name = "RMSE", value_parser = positive, help_heading = SAMPLING)]
@@ -102,17 +103,80 @@ impl Overrides {
         changes.apply(scene)
     }
 
-    /// Returns those of the options that choose what is seen, and how samples become pixels.
-    pub fn view(&self) -> Vec<String> {
+    /// Returns the options that were given, with their values as words.
+    pub fn given(&self) -> Vec<(&'static str, String)> {
+        let word = |name: Option<&str>| name.map(str::to_owned);
         let options = [
             ("camera", self.camera.clone()),
             ("size", self.size.map(|[width, height]| format!("{width}x{height}"))),
-            ("pixel-filter", self.pixel_filter.map(|kind| kind.name().to_owned())),
+            ("pixel-filter", word(self.pixel_filter.map(PixelFilterKind::name))),
             ("pixel-filter-radius", self.pixel_filter_radius.map(|radius| radius.to_string())),
+            ("spp", self.spp.map(|spp| spp.to_string())),
+            ("algorithm", word(self.algorithm.map(Algorithm::name))),
+            ("budget", self.budget.map(|seconds| format!("{seconds}s"))),
+            ("target-error", self.target_error.map(|rmse| rmse.to_string())),
+            ("pattern", word(self.pattern.map(Pattern::name))),
+            ("seed", self.seed.map(|seed| seed.to_string())),
+            ("method", word(self.method.map(Method::name))),
+            ("filter", word(self.filter.map(Filter::name))),
+            ("mip", word(self.mip.map(LevelUse::name))),
+            ("footprint", word(self.footprint.map(Footprint::name))),
+            ("precision", word(self.precision.map(Precision::name))),
+            ("shared", self.shared.map(|shared| shared.to_string())),
         ];
-        let given = options.into_iter().filter_map(|(name, value)| Some([format!("--{name}"), value?]));
-        let settings = self.set.iter().map(|setting| ["--set".to_owned(), setting.text().to_owned()]);
-        given.chain(settings).flatten().collect()
+        let options = options.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        options.chain(self.set.iter().map(|setting| ("set", setting.text().to_owned()))).collect()
+    }
+
+    /// Returns those of the options that choose what is seen, and how samples become pixels.
+    pub fn view(&self) -> Vec<String> {
+        const VIEW: [&str; 5] = ["camera", "size", "pixel-filter", "pixel-filter-radius", "set"];
+        let given = self.given().into_iter().filter(|(name, _)| VIEW.contains(name));
+        given.flat_map(|(name, value)| [format!("--{name}"), value]).collect()
+    }
+
+    /// Returns these options, and those of `base` that they do not state.
+    pub fn over(self, base: &Overrides) -> Overrides {
+        let has_goal = self.goal().is_some();
+        Overrides {
+            camera: self.camera.or_else(|| base.camera.clone()),
+            set: [base.set.clone(), self.set].concat(),
+            size: self.size.or(base.size),
+            spp: self.spp.or(base.spp),
+            algorithm: self.algorithm.or(base.algorithm),
+            // One goal replaces the other.
+            budget: self.budget.or(base.budget.filter(|_| !has_goal)),
+            target_error: self.target_error.or(base.target_error.filter(|_| !has_goal)),
+            pattern: self.pattern.or(base.pattern),
+            seed: self.seed.or(base.seed),
+            method: self.method.or(base.method),
+            filter: self.filter.or(base.filter),
+            footprint: self.footprint.or(base.footprint),
+            precision: self.precision.or(base.precision),
+            mip: self.mip.or(base.mip),
+            pixel_filter: self.pixel_filter.or(base.pixel_filter),
+            pixel_filter_radius: self.pixel_filter_radius.or(base.pixel_filter_radius),
+            shared: self.shared.or(base.shared),
+        }
+    }
+
+    /// Returns the options that show the same by samples without a prefilter, with the textures' filters of `base`.
+    pub fn as_reference(&self, base: &Overrides, spp: u32) -> Overrides {
+        Overrides {
+            spp: Some(spp),
+            algorithm: Some(Algorithm::Samples),
+            budget: None,
+            target_error: None,
+            pattern: Some(Pattern::Stratified),
+            seed: base.seed,
+            method: Some(Method::Shader),
+            filter: base.filter,
+            footprint: Some(Footprint::None),
+            precision: base.precision,
+            mip: base.mip,
+            shared: Some(false),
+            ..self.clone()
+        }
     }
 
     /// Returns the goal that ends the sampling, unless that is a number of samples.
@@ -143,13 +207,6 @@ impl Overrides {
             "methods": methods,
             "keep_everything": keep_everything,
         })
-    }
-}
-
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
-        _ => Err("expected a number above 0".into()),
     }
 }
 

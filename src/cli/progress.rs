@@ -10,6 +10,9 @@ use crate::core::progress::Progress;
 
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 const STEPS: u64 = 1000;
+/// The look of the bar, without words for what is done and with them.
+const PLAIN: &str = "{wide_bar} {percent:>3} % {eta:>4} left";
+const DESCRIBED: &str = "{msg} {wide_bar} {percent:>3} % {eta:>4} left";
 
 /// A progress bar on stderr if that is a terminal; in a pipe nothing is drawn.
 pub struct Bar(ProgressBar);
@@ -20,7 +23,7 @@ impl Bar {
             .map_err(|e| Error::new(format!("cannot listen to Ctrl-C: {e}")))?;
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(STEPS), target);
-        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent:>3} % {eta:>4} left") {
+        if let Ok(style) = ProgressStyle::with_template(PLAIN) {
             bar.set_style(style);
         }
         Ok(Bar(bar))
@@ -43,5 +46,14 @@ impl Progress for Bar {
 
     fn cancelled(&self) -> bool {
         CANCELLED.load(Ordering::Relaxed)
+    }
+
+    fn describe(&self, what: &str) {
+        if self.0.message().is_empty()
+            && let Ok(style) = ProgressStyle::with_template(DESCRIBED)
+        {
+            self.0.set_style(style);
+        }
+        self.0.set_message(what.to_owned());
     }
 }

@@ -49,7 +49,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Vec<String>,
     /// Render only this part, in pixels of the full picture
-    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_crop)]
+    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_part)]
     crop: Option<Rect>,
     /// Build the pipeline with all features, to measure the gain of leaving some out
     #[arg(long, help_heading = MEASURING)]
@@ -253,7 +253,7 @@ impl<'a> Job<'a> {
 }
 
 /// Refuses an output that would overwrite an input file.
-fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
+pub(super) fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     super::check_input_kept(output, &scene.path, "the scene file")?;
     scene.textures.iter().try_for_each(|t| {
         let what = format!("the file of texture \"{}\"", t.name);
@@ -261,7 +261,7 @@ fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     })
 }
 
-fn parse_crop(text: &str) -> Result<Rect, String> {
+pub(super) fn parse_part(text: &str) -> Result<Rect, String> {
     let numbers: Vec<u32> = text.split(',').map_while(|n| n.trim().parse().ok()).collect();
     match numbers[..] {
         [x, y, width, height] if text.split(',').count() == 4 && width > 0 && height > 0 => {

@@ -7,13 +7,14 @@ use std::time::Instant;
 
 use super::overrides::parse_size;
 use super::progress::Bar;
+use super::quantity::{positive, seconds};
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::study::format::names;
 use crate::lab::study::method::Method;
-use crate::lab::study::record::{self, Record};
-use crate::lab::study::{self, Options, ReferenceChoice};
+use crate::lab::study::record::{self, Question, Record};
+use crate::lab::study::{self, Options, ReferenceChoice, steadiness};
 use crate::output;
 use crate::scene::prune::prune;
 use crate::scene::{MAX_SPP, Reading, Setting, is_standard_input, load_as};
@@ -37,9 +38,16 @@ pub struct StudyArgs {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Methods, separated by commas: PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, such as
-    /// random,stratified,stratified+cone+ewa [default: all patterns, and filters if there are textures]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Method::parse)]
-    methods: Vec<Method>,
+    /// random,stratified,stratified+cone+ewa; best among them, or alone: those that a coarse pass finds promising
+    /// [default: all patterns, and filters if there are textures]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Listed::parse)]
+    methods: Vec<Listed>,
+    /// Recommend what errs least within this time of rendering, such as 50ms or 0.05 (seconds)
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "error")]
+    budget: Option<f64>,
+    /// Recommend what comes to this RMSE fastest
+    #[arg(long, value_name = "RMSE", value_parser = positive, allow_negative_numbers = true)]
+    error: Option<f64>,
     /// Samples per pixel, separated by commas, each rounded up to a number that the pattern supports
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,4,16,64,256", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     spp: Vec<u32>,
@@ -56,8 +64,8 @@ pub struct StudyArgs {
     /// Reference: a picture file, or oracle [default: many samples on the device]
     #[arg(long, value_name = "FILE|oracle")]
     reference: Option<String>,
-    /// Time limit of the study; the longest points are left out if it does not suffice
-    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = super::overrides::positive, allow_negative_numbers = true)]
+    /// Time limit of the study, such as 90s, 10min or 600 (seconds); the longest points are left out if it does not suffice
+    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = seconds, allow_negative_numbers = true)]
     seconds: f64,
     /// Print the content of study.json on stdout
     #[arg(long)]
@@ -68,6 +76,20 @@ pub struct StudyArgs {
     /// Print the winner of each time and what was left out
     #[arg(short, long)]
     verbose: bool,
+}
+
+/// An element of the list of methods.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Listed {
+    Method(Method),
+    /// Those that a coarse pass finds promising.
+    Best,
+}
+
+impl Listed {
+    fn parse(text: &str) -> Result<Listed, String> {
+        if text == "best" { Ok(Listed::Best) } else { Method::parse(text).map(Listed::Method) }
+    }
 }
 
 pub fn run(args: &StudyArgs) -> Result<ExitCode> {
@@ -123,11 +145,13 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
 
 fn options(args: &StudyArgs, started: Instant) -> Options {
     let mut methods: Vec<Method> = Vec::new();
-    args.methods.iter().for_each(|m| {
-        if !methods.contains(m) {
-            methods.push(m.clone())
+    for listed in &args.methods {
+        if let Listed::Method(method) = listed
+            && !methods.contains(method)
+        {
+            methods.push(method.clone());
         }
-    });
+    }
     let mut arguments = Vec::new();
     if let Some(camera) = &args.camera {
         arguments.extend(["--camera".to_owned(), camera.clone()]);
@@ -141,6 +165,8 @@ fn options(args: &StudyArgs, started: Instant) -> Options {
     }
     Options {
         methods: (!methods.is_empty()).then_some(methods),
+        best: args.methods.contains(&Listed::Best),
+        question: args.budget.map(Question::Budget).or(args.error.map(Question::Error)),
         counts: args.spp.clone(),
         repeats: args.repeats,
         reference: match args.reference.as_deref() {
@@ -169,7 +195,7 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
             super::notify(format_args!(
                 "within {:.3e} s: {} with {}, RMSE {:.3e}",
                 w.budget,
-                names(w),
+                names(record, w),
                 w.taken,
                 w.rmse
             ));
@@ -178,6 +204,11 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     }
     if let Some(analysis) = analysis {
         super::notify(&analysis.recommendation);
+    }
+    if !args.verbose
+        && let Some(note) = steadiness::note(record)
+    {
+        super::notify(format_args!("note: {note}"));
     }
     super::notify(format_args!(
         "{}: {}",

@@ -8,6 +8,8 @@ pub trait Progress: Sync {
     fn advance(&self, done: f64);
     /// Returns true once the user has requested to stop; the work then ends at the next safe point.
     fn cancelled(&self) -> bool;
+    /// Names what is done at the moment, for a person who waits.
+    fn describe(&self, _what: &str) {}
 }
 
 /// Reports nothing and is never cancelled.
@@ -39,6 +41,10 @@ impl Progress for SubProgress<'_> {
     fn cancelled(&self) -> bool {
         self.whole.cancelled()
     }
+
+    fn describe(&self, what: &str) {
+        self.whole.describe(what);
+    }
 }
 
 /// A computation that is also cancelled at a deadline.
@@ -56,5 +62,9 @@ impl Progress for WithDeadline<'_> {
 
     fn cancelled(&self) -> bool {
         self.whole.cancelled() || Instant::now() >= self.deadline
+    }
+
+    fn describe(&self, what: &str) {
+        self.whole.describe(what);
     }
 }

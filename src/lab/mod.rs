@@ -6,6 +6,7 @@ pub mod metrics;
 pub mod pattern;
 pub mod plot;
 pub mod probe;
+pub mod sheet;
 pub mod stability;
 pub mod study;
 pub mod verify;

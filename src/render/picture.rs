@@ -16,13 +16,14 @@ use super::session::{Prepared, Session};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
-use crate::gpu::{self, DeviceInfo, Gpu};
+use crate::gpu::{self, DeviceInfo, DeviceSelect, Gpu};
 use crate::integrators::Integrated;
 use crate::integrators::adaptive::PixelEstimates;
 use crate::oracle::backend::OracleBackend;
-use crate::pack::PackedScene;
+use crate::pack::{self, PackedScene};
 use crate::sampling::{Backend, Scheduler};
 use crate::scene::model::Scene;
+use crate::texture::data::TextureData;
 
 /// A film, and the statistics of its render.
 #[derive(Clone, Debug)]
@@ -135,6 +136,28 @@ pub fn render_kept(
         nonfinite,
         _closing: Arc::default(),
     })
+}
+
+/// Renders a scene whose textures are loaded on a device that is open, to the goal of the options.
+pub fn render_on(
+    gpu: &Gpu,
+    scene: &Scene,
+    textures: Vec<TextureData>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(Film, Report)> {
+    let mut rivals = RivalScenes::of(scene, options);
+    let kept = (!rivals.is_empty()).then(|| textures.clone());
+    let packed = pack::pack_with(scene, textures, options.crop, options.mips.mip_chains(gpu.info()))?;
+    rivals.textures = packed.beam_textures.clone().or(kept.map(Arc::new));
+    let [width, height] = packed.header.film_size.to_array();
+    // The choice of the device is made: it is the open one.
+    let on = [On::Device(DeviceSelect::Default)];
+    let film = Film::new(width, height, 0);
+    let gpus = std::slice::from_ref(gpu);
+    let Integration { integrated, mut report, .. } =
+        integrate(packed, rivals, film, options, &on, gpus, progress)?;
+    Ok((report.take(integrated), report))
 }
 
 /// What remains of sessions and backends when they are done.

@@ -71,6 +71,7 @@ mod random_scenes;
 mod rays;
 mod resubmit;
 mod scene;
+mod sheet;
 mod slopes;
 mod sources;
 mod specialise;

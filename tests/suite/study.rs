@@ -6,6 +6,7 @@ mod browser;
 mod command;
 mod files;
 mod methods;
+mod question;
 #[cfg(unix)]
 mod resume;
 mod session;

@@ -3,6 +3,9 @@
 
 /// The distance in pixels between the end of the scale and values without a logarithm.
 const END_GAP: f64 = 26.0;
+/// The margins of a tight axis: a part of its logarithm, and the smallest factor.
+const TIGHT_MARGIN: f64 = 0.04;
+const LEAST_MARGIN: f64 = 1.3;
 /// The largest number of tick labels on an axis.
 const MAX_LABELS: usize = 10;
 
@@ -38,6 +41,20 @@ impl Axis {
         Axis { low, high, from, to, zero, infinity }
     }
 
+    /// Creates an axis that ends a little beyond the values, so that no part of it is empty.
+    pub fn tight(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Axis {
+        let values: Vec<f64> = values.collect();
+        let usable = || values.iter().copied().filter(|v| *v > 0.0 && v.is_finite());
+        let [low, high] = [usable().fold(f64::INFINITY, f64::min), usable().fold(0.0, f64::max)];
+        let axis = Axis::new(values.iter().copied(), from, to);
+        if low > high {
+            return axis;
+        }
+        // At least as much as keeps marks clear of the frame, and two ticks.
+        let margin = (high / low).powf(TIGHT_MARGIN).max(LEAST_MARGIN);
+        Axis { low: low / margin, high: high * margin, ..axis }
+    }
+
     /// Returns the position of a value, or `None` if the axis cannot show it.
     pub fn position(&self, value: f64) -> Option<f64> {
         match value {
@@ -58,7 +75,8 @@ impl Axis {
     /// Returns tick positions with labels: all steps if they fit, else whole decades or, on long
     /// axes, some of them.
     pub fn ticks(&self) -> Vec<(f64, Option<String>)> {
-        let all = steps(self.low, self.high);
+        let mut all = steps(self.low, self.high);
+        all.retain(|step| *step <= self.high * (1.0 + 1e-9));
         let crowded = all.len() > MAX_LABELS;
         let decade = |v: f64| (v.log10() - v.log10().round()).abs() < 1e-6;
         let decades = all.iter().filter(|v| decade(**v)).count();

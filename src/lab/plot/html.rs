@@ -8,6 +8,8 @@ use super::svg::escape;
 
 /// The script that lets legends toggle their series.
 pub const SCRIPT: &str = include_str!("page/script.js");
+/// The script of the glass over the pictures of a sheet.
+pub const SHEET_SCRIPT: &str = include_str!("page/sheet.js");
 
 /// Markup. `html!` makes it from a template and values, and escapes each value that is not markup itself.
 #[derive(Clone, Debug, Default)]
@@ -94,7 +96,7 @@ pub struct Header<'a> {
     pub title: &'a str,
     /// The conditions: device, scene and size.
     pub facts: &'a str,
-    /// The result in one sentence.
+    /// The result in one sentence, if there is one.
     pub lead: &'a str,
     pub more: Html,
 }
@@ -102,6 +104,10 @@ pub struct Header<'a> {
 /// Returns the page around `sections`, without a script if `script` is empty.
 pub fn document(header: &Header<'_>, sections: &Html, script: &str) -> String {
     let Header { title, facts, lead, more } = header;
+    let lead = match *lead {
+        "" => Html::default(),
+        lead => html!("<p class=\"lead\">{}</p>\n", lead),
+    };
     let script = match script {
         "" => Html::default(),
         script => html!("<script>\n{}</script>\n", Html::trusted(script)),
@@ -111,7 +117,7 @@ pub fn document(header: &Header<'_>, sections: &Html, script: &str) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>{}</title>\n\
          <link rel=\"icon\" href=\"data:,\"/>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
-         <header>\n<h1>{}</h1>\n<p class=\"facts\">{}</p>\n<p class=\"lead\">{}</p>\n{}</header>\n\
+         <header>\n<h1>{}</h1>\n<p class=\"facts\">{}</p>\n{}{}</header>\n\
          {}</main>\n{}</body>\n</html>\n",
         title,
         Html::trusted(include_str!("page/style.css")),

@@ -4,4 +4,5 @@
 pub mod axis;
 pub mod chart;
 pub mod html;
+mod labels;
 pub mod svg;

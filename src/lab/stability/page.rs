@@ -7,7 +7,7 @@ use std::path::Path;
 use super::report::{Row, StabilityReport, Verdict};
 use super::text::{number, place, summary, swept};
 use crate::core::error::{Error, Result};
-use crate::lab::plot::chart::{Chart, Series};
+use crate::lab::plot::chart::{Chart, Role, Series};
 use crate::lab::plot::html::{Header, Html, document, html, long_table, scroll, section, table};
 use crate::output;
 
@@ -130,6 +130,7 @@ fn chart(row: &Row) -> String {
             points: row.points.iter().map(|p| [p.parameter, p.error]).collect(),
             titles: row.points.iter().map(title).collect(),
             dashed: false,
+            role: Role::Alone,
         }],
         level: Some((row.bound, "bound")),
         guides: Vec::new(),

@@ -4,10 +4,12 @@
 
 use super::advice::advice;
 use super::bootstrap::interval;
+use super::choice::chosen;
 pub use super::choice::{recommended, winners};
 use super::fit::{Line, least_squares};
 pub use super::fit::{median, time_to};
 use super::record::{PointRecord, Record};
+use super::results::Steadiness;
 pub use super::results::{Analysis, MethodSlope, Reach, RecommendedPoint, Slope};
 use super::student;
 use crate::lab::plot::axis::steps;
@@ -35,9 +37,11 @@ pub fn analyse(record: &Record) -> Analysis {
     };
     let slopes: Vec<MethodSlope> = record.methods.iter().map(slope).collect();
     let winners = winners(&record.points, &slopes);
+    let best = chosen(record, &winners);
     Analysis {
         recommendation: advice(record, &winners),
-        recommended: recommended(&record.points, &winners).map(RecommendedPoint::of),
+        recommended: best.map(RecommendedPoint::of),
+        steadiness: best.and_then(|best| Steadiness::of(record, best)),
         slopes,
         winners,
         reach: reach(record),

@@ -3,7 +3,7 @@
 
 use super::bootstrap::ratio;
 use super::format::samples_taken;
-use super::record::PointRecord;
+use super::record::{PointRecord, Record};
 use super::results::{MethodSlope, RecommendedPoint, Winner};
 use crate::lab::plot::axis::steps;
 
@@ -89,6 +89,30 @@ fn extrapolated(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Op
         rmse: last.errors.rmse * longer.powf(0.5 * law.value),
         estimated: true,
     })
+}
+
+/// Returns the point that is recommended: what answers the question of the study, or else [`recommended`].
+pub fn chosen<'a>(record: &'a Record, winners: &[Winner]) -> Option<&'a PointRecord> {
+    match record.conditions.question {
+        Some(question) => question.answer(&record.points),
+        None => recommended(&record.points, winners),
+    }
+}
+
+/// Returns the methods that a plot singles out, at most `most`: the recommended one, then those that win most times.
+pub fn leaders(record: &Record, most: usize) -> Vec<String> {
+    let Some(analysis) = &record.analysis else { return Vec::new() };
+    let winners = &analysis.winners;
+    let mut leaders: Vec<String> = chosen(record, winners).map(|p| p.method.clone()).into_iter().collect();
+    let won = |name: &str| winners.iter().filter(|w| w.method == name).count();
+    let mut others: Vec<&str> = winners.iter().map(|w| w.method.as_str()).collect();
+    others.sort_by_key(|name| std::cmp::Reverse(won(name)));
+    for name in others {
+        if leaders.len() < most && !leaders.iter().any(|leader| leader == name) {
+            leaders.push(name.to_owned());
+        }
+    }
+    leaders
 }
 
 /// Returns, among the points that no other beats in both error and time, the best one of the method

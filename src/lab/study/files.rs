@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use crate::core::error::{Error, Result};
-use crate::lab::plot::chart::{Chart, Series};
+use crate::lab::plot::chart::{Chart, LEADERS, Role, Series};
 use crate::output;
 
+use super::choice::leaders;
 use super::format::{error, samples_taken, seconds};
 use super::page::Plots;
 use super::record::{self, PointRecord, Record};
@@ -61,19 +62,22 @@ impl Plots {
 }
 
 fn series(record: &Record, x: &dyn Fn(&PointRecord) -> f64) -> Vec<Series> {
+    let leaders = leaders(record, LEADERS);
     let of = |m: &record::MethodRecord| {
         let points: Vec<&PointRecord> = record.points_of(&m.name).collect();
         let title = |p: &&PointRecord| {
             format!(
                 "{}, {}: RMSE {} in {}",
-                p.method,
+                m.label,
                 samples_taken(p),
                 error(p.errors.rmse),
                 seconds(p.median_seconds())
             )
         };
+        let place = leaders.iter().position(|leader| *leader == m.name);
         Series {
-            name: m.name.clone(),
+            name: m.label.clone(),
+            role: place.map_or(Role::Other, Role::Leader),
             points: points.iter().map(|p| [x(p), p.errors.rmse]).collect(),
             titles: points.iter().map(title).collect(),
             dashed: m.footprint != "none",
@@ -88,7 +92,7 @@ fn description(record: &Record, over: &str) -> String {
         let least = record.points_of(&m.name).min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
         Some(format!(
             "{} reaches {} with {} in {}",
-            m.name,
+            m.label,
             error(least.errors.rmse),
             samples_taken(least),
             seconds(least.median_seconds())

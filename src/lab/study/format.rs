@@ -1,15 +1,15 @@
 //! Numbers as words: how times, errors and counts are written in sentences and on the page.
 
 use super::method::Method;
-use super::record::PointRecord;
+use super::record::{PointRecord, Record};
 use super::results::Winner;
 use crate::core::counted::counted;
 use crate::scene::model::Algorithm;
 
 /// Returns the winning method, or all that tie.
-pub fn names(winner: &Winner) -> String {
+pub fn names(record: &Record, winner: &Winner) -> String {
     let all = std::iter::once(&winner.method).chain(&winner.ties);
-    all.map(String::as_str).collect::<Vec<_>>().join(" or ")
+    all.map(|name| record.label(name)).collect::<Vec<_>>().join(" or ")
 }
 
 /// Returns the samples per pixel of a point as text.
@@ -70,11 +70,31 @@ pub fn percent(share: f64) -> String {
     format!("{} %", significant(share * 100.0))
 }
 
+/// Formats a time as it was asked for: 50 ms.
+pub fn asked_seconds(seconds: f64) -> String {
+    let rounded = |value: f64| format!("{}", (value * 1e6).round() / 1e6);
+    match seconds {
+        s if s >= 1.0 => format!("{} s", rounded(s)),
+        s if s >= 1e-3 => format!("{} ms", rounded(s * 1e3)),
+        s => format!("{} µs", rounded(s * 1e6)),
+    }
+}
+
+/// Formats an error as it was asked for: 0.001.
+pub fn asked_error(rmse: f64) -> String {
+    if rmse >= 1e-4 { format!("{rmse}") } else { format!("{rmse:e}").replace('-', "−") }
+}
+
 /// Returns the median time of a point and the spread of its repeats.
 pub fn times(point: &PointRecord) -> String {
     let least = point.seconds.iter().copied().fold(f64::INFINITY, f64::min);
     let most = point.seconds.iter().copied().fold(0.0, f64::max);
-    format!("{} ({} to {})", seconds(point.median_seconds()), seconds(least), seconds(most))
+    let median = seconds(point.median_seconds());
+    if point.seconds.len() < 2 {
+        median
+    } else {
+        format!("{median} ({} to {})", seconds(least), seconds(most))
+    }
 }
 
 #[cfg(test)]
@@ -87,5 +107,7 @@ mod tests {
         assert_eq!(written, ["12.3 s", "1.00 s", "1.00 s", "500 ms", "1.00 ms", "25.0 µs"]);
         assert_eq!([0.25, 0.0123, 0.0].map(error), ["0.250", "1.23e−2", "0.000"]);
         assert_eq!(percent(0.1234), "12.3 %");
+        assert_eq!([0.05, 2.5, 2e-4].map(asked_seconds), ["50 ms", "2.5 s", "200 µs"]);
+        assert_eq!([1e-3, 2.5e-5].map(asked_error), ["0.001", "2.5e−5"]);
     }
 }

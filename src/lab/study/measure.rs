@@ -37,6 +37,12 @@ pub struct Measurement<'a> {
     pub options: &'a Options,
     pub methods: &'a [Method],
     pub points: &'a [Point],
+    /// Renders per point.
+    pub repeats: u32,
+    /// Methods whose points are rendered once and no more.
+    pub paused: &'a [usize],
+    /// The part of the progress that these points take.
+    pub span: [f64; 2],
     pub reference: &'a Reference,
     pub identity: &'a Hash,
     pub limit: &'a Limit,
@@ -92,11 +98,14 @@ impl<'a> Measurement<'a> {
         }
         let begun = Instant::now();
         let mut saved = Instant::now();
-        for round in 0..self.options.repeats as usize {
+        let mut done = 0;
+        for round in 0..self.repeats as usize {
             for i in 0..tasks.len() {
-                if tasks[i].record.seconds.len() > round || tasks[i].left_out {
+                done += 1;
+                if self.is_done(&tasks[i], round) || tasks[i].left_out {
                     continue;
                 }
+                self.describe(&tasks[i], round, done, tasks.len());
                 let next = forecast.seconds(&tasks[i].point);
                 let needed = if round == 0 { self.upkeep(tasks, i, &forecast) } else { next };
                 let end = self.limit.seconds - self.reserve(&forecast);
@@ -107,8 +116,8 @@ impl<'a> Measurement<'a> {
                 let spent = begun.elapsed().as_secs_f64();
                 let left = self.remaining(tasks, &forecast);
                 let share = |seconds: f64| {
-                    let from = self.reference.progress;
-                    from + (1.0 - from) * (seconds / (spent + left).max(1e-9)).min(1.0)
+                    let [from, to] = self.span;
+                    from + (to - from) * (seconds / (spent + left).max(1e-9)).min(1.0)
                 };
                 let part = SubProgress { whole: self.progress, from: share(spent), to: share(spent + next) };
                 let clock = Instant::now();
@@ -132,6 +141,21 @@ impl<'a> Measurement<'a> {
         Ok(())
     }
 
+    fn is_done(&self, task: &Task<'_>, round: usize) -> bool {
+        task.record.seconds.len() > round || task.compared && self.paused.contains(&task.point.method)
+    }
+
+    fn describe(&self, task: &Task<'_>, round: usize, done: usize, all: usize) {
+        let name = self.methods[task.point.method].label(self.scene.sampling.pattern);
+        let again = if self.repeats > 1 {
+            format!(", round {} of {}", round + 1, self.repeats)
+        } else {
+            String::new()
+        };
+        let samples = counted(task.point.samples, "sample");
+        self.progress.describe(&format!("{name}, {samples} ({} of {all}{again})", done - round * all));
+    }
+
     /// Returns the seconds that the pictures of the page will take.
     fn reserve(&self, forecast: &Forecast) -> f64 {
         let panel = |method: usize| {
@@ -148,13 +172,16 @@ impl<'a> Measurement<'a> {
     /// Returns the seconds that point `i` needs if it is started now: all its repeats, and the
     /// outstanding ones of the points before it.
     fn upkeep(&self, tasks: &[Task<'_>], i: usize, forecast: &Forecast) -> f64 {
-        let own = forecast.seconds(&tasks[i].point) * f64::from(self.options.repeats);
+        let own = forecast.seconds(&tasks[i].point) * f64::from(self.repeats);
         let before = tasks[..i].iter().filter(|t| !t.left_out && t.compared);
         own + forecast.overhead() + before.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum::<f64>()
     }
 
     fn lacking(&self, task: &Task<'_>) -> f64 {
-        f64::from(self.options.repeats.saturating_sub(task.record.seconds.len() as u32))
+        if self.is_done(task, 0) && self.paused.contains(&task.point.method) {
+            return 0.0;
+        }
+        f64::from(self.repeats.saturating_sub(task.record.seconds.len() as u32))
     }
 
     fn remaining(&self, tasks: &[Task<'_>], forecast: &Forecast) -> f64 {
@@ -223,8 +250,8 @@ impl<'a> Measurement<'a> {
                 ));
             }
         }
-        let wanted = self.options.repeats as usize;
-        let short = tasks.iter().filter(|t| t.compared && t.record.seconds.len() < wanted).count();
+        let wanted = self.repeats as usize;
+        let short = tasks.iter().filter(|t| t.compared && !self.is_done(t, wanted - 1)).count();
         if short > 0 {
             notes.push(format!(
                 "{} {} fewer than {wanted} repeats: no room within --seconds {limit}",
@@ -246,5 +273,10 @@ fn judge(film: &Film, reference: &Reference) -> Result<Errors> {
 /// Collects the measured points, method by method.
 fn collect(record: &mut Record, tasks: &[Task<'_>], methods: &[Method]) {
     let of = |method: usize| tasks.iter().filter(move |t| t.point.method == method && t.compared);
-    record.points = (0..methods.len()).flat_map(of).map(|t| t.record.clone()).collect();
+    let sorted = |method: usize| {
+        let mut points: Vec<PointRecord> = of(method).map(|t| t.record.clone()).collect();
+        points.sort_by_key(|p| p.spp);
+        points
+    };
+    record.points = (0..methods.len()).flat_map(sorted).collect();
 }

@@ -10,6 +10,7 @@ use crate::scene::synonyms::meant;
 use crate::scene::{check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
+use super::label;
 use super::record::MethodRecord;
 
 /// A method. A footprint with a filter makes every sampler read mip levels linearly: `linear` is
@@ -95,6 +96,25 @@ impl Method {
         if named.is_empty() { self.algorithm.name().to_owned() } else { named.join("+") }
     }
 
+    /// Returns the name as a person calls it, in scenes of this pattern, which is not said beside a filter:
+    /// `stratified+cone+linear` is "trilinear, cone footprint".
+    pub fn label(&self, pattern_of_scene: Pattern) -> String {
+        let pattern = self.pattern.unwrap_or(pattern_of_scene);
+        let prefilters = self.footprint != Footprint::None;
+        let is_said = match self.algorithm {
+            Algorithm::Samples => !prefilters || pattern != pattern_of_scene,
+            Algorithm::Adaptive | Algorithm::Auto => pattern != Pattern::SobolOwen,
+            Algorithm::Beam | Algorithm::Cone => pattern != pattern_of_scene,
+        };
+        let words = [
+            label::algorithm(self.algorithm),
+            self.filter.map(label::filter),
+            prefilters.then(|| label::footprint(self.footprint)),
+            is_said.then(|| label::pattern(pattern)),
+        ];
+        words.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
     pub fn pattern_in(&self, scene: &Scene) -> Pattern {
         self.pattern.unwrap_or(scene.sampling.pattern)
     }
@@ -102,6 +122,7 @@ impl Method {
     pub fn describe(&self, scene: &Scene) -> MethodRecord {
         MethodRecord {
             name: self.name(),
+            label: self.label(scene.sampling.pattern),
             algorithm: self.algorithm.name().to_owned(),
             pattern: self.pattern_in(scene).name().to_owned(),
             footprint: self.footprint.name().to_owned(),

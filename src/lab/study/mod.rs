@@ -3,7 +3,7 @@
 //! one HTML page that says which setting to use.
 //!
 //! ```text
-//! method ─ plan ─▶ measure (render, metrics) ─▶ record ─▶ analysis ─▶ plots · stages · page
+//! method ─ plan ─▶ course ─▶ measure (render, metrics) ─▶ record ─▶ analysis ─▶ plots · stages · page
 //!                     ▲ reference
 //! ```
 
@@ -11,22 +11,27 @@ mod advice;
 pub mod analysis;
 pub mod bootstrap;
 pub mod choice;
+mod course;
 mod files;
 mod fit;
 pub mod format;
 mod identity;
+pub mod label;
 mod limit;
 mod measure;
 pub mod method;
 mod page;
-mod pictures;
+pub mod pictures;
 pub mod plan;
+pub mod question;
 pub mod record;
 mod reference;
+pub mod refine;
 pub mod results;
 mod session_cache;
 mod showcase;
 mod stages;
+pub mod steadiness;
 pub mod student;
 mod tables;
 
@@ -39,9 +44,10 @@ use crate::gpu::Gpu;
 use crate::scene::model::Scene;
 use crate::texture;
 
+use course::Course;
 use limit::Limit;
 use method::Method;
-use record::{Conditions, Record};
+use record::{Conditions, Question, Record};
 use session_cache::SessionCache;
 
 /// The options of a study.
@@ -49,6 +55,10 @@ use session_cache::SessionCache;
 pub struct Options {
     /// The methods; `None` for those of [`Method::all_for`].
     pub methods: Option<Vec<Method>>,
+    /// True if a coarse pass over the methods chooses those that are measured further.
+    pub best: bool,
+    /// What the recommendation answers; `None` for what wins most times.
+    pub question: Option<Question>,
     /// Samples per pixel, each rounded up to a count that the pattern supports.
     pub counts: Vec<u32>,
     /// Renders per point, of which the median counts.
@@ -93,21 +103,21 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     let reference =
         reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
-    measure::Measurement {
+    Course {
         sessions: &sessions,
         scene,
         options,
         methods: &methods,
-        points: &points,
         reference: &reference,
         identity: &identity,
         limit: &limit,
         progress,
     }
-    .run(&mut record, kept.points)?;
+    .run(&mut record, points, kept.points)?;
     record.analysis = Some(analysis::analyse(&record));
     let showcase = showcase::render(&sessions, scene, &record, &reference.film, &limit, progress)?;
     record.notes.extend(showcase.note(&limit));
+    record.notes.extend(steadiness::note(&record));
     record.notes.extend(limit.note());
     files::write_all(&options.out, &record, &showcase)?;
     Ok(record)

@@ -4,12 +4,12 @@ use crate::core::error::Result;
 use crate::lab::plot::html::{Header, Html, SCRIPT, code, document, html, scroll, section};
 use crate::output::Format;
 
-use super::choice::recommended;
+use super::choice::chosen;
 use super::format::error;
 use super::pictures::{crop, data_uri, differences, downscaled, false_color, ramp_css, scale};
 use super::record::Record;
 use super::showcase::Showcase;
-use super::tables;
+use super::{steadiness, tables};
 
 /// The charts of the page, each as SVG.
 pub struct Plots {
@@ -30,21 +30,24 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         "{}×{} pixels on {} ({}), {}",
         c.size[0], c.size[1], c.device.name, c.device.driver, c.program
     );
-    let best = recommended(&record.points, &analysis.winners).map(|point| point.command.as_str());
+    let best = chosen(record, &analysis.winners).map(|point| point.command.as_str());
     let command = best.map(|c| scroll("The recommended setting as a command", code(c)));
+    let busy = steadiness::note(record);
+    let busy = busy.map_or(Html::default(), |note| html!("<p class=\"note\">{}</p>\n", note));
     let sections = [
+        tables::answer(record),
         section("faults", "Three faults and what helps", faults(showcase)?),
         section(
             "time",
             "Error against time",
-            plot("Error over time", &plots.time) + tables::winners(analysis),
+            plot("Error over time", &plots.time) + tables::winners(record, analysis),
         ),
         section(
             "rays",
             "Error against rays",
-            plot("Error over rays", &plots.rays) + tables::slopes(analysis),
+            plot("Error over rays", &plots.rays) + tables::slopes(record, analysis),
         ),
-        section("reach", "Time to reach an error", tables::reach(analysis)),
+        section("reach", "Time to reach an error", tables::reach(record, analysis)),
         section("stages", "Where the time goes", plot("Time by stage", &plots.stages)),
         section("differences", "Where the error is", difference_pictures(showcase)?),
         section("points", "Every point", tables::points(record)),
@@ -54,7 +57,7 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         title: &title,
         facts: &facts,
         lead: &analysis.recommendation,
-        more: command.unwrap_or_default(),
+        more: busy + command.unwrap_or_default(),
     };
     Ok(document(&header, &sections.into_iter().collect(), SCRIPT))
 }
@@ -75,7 +78,24 @@ fn image(uri: &str, size: [u32; 2], alt: &str, class: &str) -> Html {
 }
 
 fn figure(picture: Html, heading: Html, text: Html) -> Html {
-    html!("<figure>{}<figcaption><b>{}</b> {}</figcaption></figure>\n", picture, heading, text)
+    marked_figure(false, picture, heading, text)
+}
+
+/// Returns a figure, with a frame if it shows what is recommended.
+fn marked_figure(is_recommended: bool, picture: Html, heading: Html, text: Html) -> Html {
+    let (class, mark) = if is_recommended {
+        ("recommended", html!("<span class=\"badge\">recommended</span> "))
+    } else {
+        ("", Html::default())
+    };
+    html!(
+        "<figure class=\"{}\">{}<figcaption>{}<b>{}</b> {}</figcaption></figure>\n",
+        class,
+        picture,
+        mark,
+        heading,
+        text
+    )
 }
 
 fn faults(showcase: &Showcase) -> Result<Html> {
@@ -103,15 +123,9 @@ fn faults(showcase: &Showcase) -> Result<Html> {
             panel.heading, panel.method, panel.taken
         );
         let part = data_uri(&crop(&panel.film, w), Format::Png)?;
-        let text = html!(
-            "<code>{}</code>, {}, RMSE {}. {}",
-            panel.method,
-            panel.taken,
-            error(panel.rmse),
-            panel.text
-        );
+        let text = html!("{}, {}, RMSE {}. {}", panel.method, panel.taken, error(panel.rmse), panel.text);
         let picture = image(&part, [w.width, w.height], &alt, "pixels");
-        figures.push(figure(picture, html!("{}.", panel.heading), text));
+        figures.push(marked_figure(panel.is_recommended, picture, html!("{}.", panel.heading), text));
     }
     let part = data_uri(&crop(&showcase.reference, w), Format::Png)?;
     let alt = "The same part of the reference picture, magnified";
@@ -143,7 +157,7 @@ fn difference_pictures(showcase: &Showcase) -> Result<Html> {
         );
         let picture = image(&data_uri(&picture, Format::Jpeg)?, [picture.width, picture.height], &alt, "");
         let text = html!("{}, RMSE {}.", panel.taken, error(panel.rmse));
-        figures.push(figure(picture, html!("<code>{}</code>", panel.method), text));
+        figures.push(marked_figure(panel.is_recommended, picture, html!("{}.", panel.method), text));
     }
     Ok(html!(
         "<p>Absolute difference from the reference, mean of three channels, all on one scale.</p>\n\

@@ -76,8 +76,9 @@ pub fn differences(a: &Film, b: &Film) -> Vec<f32> {
 }
 
 /// Returns the value below which all but half a per cent of the values lie.
-pub fn scale(values: &[Vec<f32>]) -> f32 {
-    let mut all: Vec<f32> = values.iter().flatten().copied().filter(|v| v.is_finite()).collect();
+pub fn scale(values: &[impl AsRef<[f32]>]) -> f32 {
+    let mut all: Vec<f32> =
+        values.iter().flat_map(AsRef::as_ref).copied().filter(|v| v.is_finite()).collect();
     all.sort_by(f32::total_cmp);
     let last = all.len().saturating_sub(1);
     all.get(last * 199 / 200).copied().unwrap_or(1.0).max(f32::MIN_POSITIVE)
@@ -107,7 +108,11 @@ pub fn ramp_css() -> String {
 
 /// Returns a picture at most `most` pixels wide, averaged over squares of whole pixels.
 pub fn downscaled(film: &Film, most: u32) -> Film {
-    let step = film.width.div_ceil(most).max(1);
+    averaged(film, film.width.div_ceil(most).max(1))
+}
+
+/// Returns a picture whose pixels are means over squares of `step` pixels.
+pub fn averaged(film: &Film, step: u32) -> Film {
     if step == 1 {
         return film.clone();
     }

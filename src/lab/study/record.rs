@@ -17,6 +17,16 @@ use super::results::Analysis;
 
 pub const FILE: &str = "study.json";
 
+/// What a study is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Question {
+    /// The least error within these seconds of rendering.
+    Budget(f64),
+    /// The least time to this RMSE.
+    Error(f64),
+}
+
 /// The conditions beside the scene on which a point depends.
 #[derive(Clone, Debug, Serialize)]
 pub struct Conditions {
@@ -32,6 +42,8 @@ pub struct Conditions {
     /// The arguments that every command has beside its method.
     pub arguments: Vec<String>,
     pub folder: String,
+    /// What the recommendation answers, if it is not what wins most times.
+    pub question: Option<Question>,
 }
 
 impl Conditions {
@@ -47,6 +59,7 @@ impl Conditions {
             counts: options.counts.clone(),
             arguments: options.arguments.clone(),
             folder: options.out.display().to_string(),
+            question: options.question,
         }
     }
 }
@@ -54,6 +67,8 @@ impl Conditions {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodRecord {
     pub name: String,
+    /// The name as a person calls it.
+    pub label: String,
     pub algorithm: String,
     pub pattern: String,
     pub footprint: String,
@@ -163,6 +178,11 @@ impl Record {
             points: Vec::new(),
             analysis: None,
         }
+    }
+
+    /// Returns the name of a method as a person calls it.
+    pub fn label<'a>(&'a self, method: &'a str) -> &'a str {
+        self.methods.iter().find(|m| m.name == method).map_or(method, |m| &m.label)
     }
 
     /// Returns the measured points of a method, fewest samples first.

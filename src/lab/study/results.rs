@@ -8,6 +8,8 @@ pub struct Analysis {
     pub recommendation: String,
     /// The recommended point, absent if nothing was measured.
     pub recommended: Option<RecommendedPoint>,
+    /// Absent if nothing was measured twice, or no other method comes to the recommended point's error.
+    pub steadiness: Option<Steadiness>,
     pub slopes: Vec<MethodSlope>,
     pub winners: Vec<Winner>,
     pub reach: Reach,
@@ -65,6 +67,19 @@ pub struct RecommendedPoint {
     pub spp: u32,
     pub seconds: f64,
     pub rmse: f64,
+}
+
+/// Whether the times tell the recommended method from the one that comes to its error next to it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Steadiness {
+    /// The neighbour, and the seconds in which it comes to the error of the recommended point.
+    pub next: String,
+    pub next_seconds: f64,
+    /// Between both times, as a part of the recommended point's.
+    pub difference: f64,
+    /// Of repeats: longest − shortest, as a part of the median; of both methods the larger one.
+    pub spread: f64,
+    pub tells_apart: bool,
 }
 
 impl Winner {

@@ -8,7 +8,7 @@ use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::compare;
 use crate::scene::model::{Algorithm, Pattern, Scene};
 
-use super::choice::recommended;
+use super::choice::chosen as best_of;
 use super::format::samples_taken_by;
 use super::limit::Limit;
 use super::method::Method;
@@ -25,7 +25,9 @@ pub const SAMPLES: u32 = 16;
 pub struct Panel {
     pub heading: &'static str,
     pub text: &'static str,
+    /// The method as a person calls it.
     pub method: String,
+    pub is_recommended: bool,
     /// The samples per pixel as text.
     pub taken: String,
     pub film: Film,
@@ -78,6 +80,8 @@ const FILTERED: (&str, &str) =
 const ALGORITHM: (&str, &str) = ("Another algorithm", "The pixel is not sampled at points alone.");
 const WINNER: (&str, &str) =
     ("The recommended method", "It has the least error within most of the times that were measured.");
+const ANSWER: (&str, &str) =
+    ("The recommended setting", "It answers what was asked, with as many samples as that needs.");
 
 pub fn render(
     sessions: &SessionCache<'_>,
@@ -99,17 +103,25 @@ pub fn render(
     for method in record.methods.iter().filter_map(named).filter(|m| m.algorithm != Algorithm::Samples) {
         chosen.push((ALGORITHM.0, ALGORITHM.1, method));
     }
-    let winner = record.analysis.as_ref().and_then(|a| recommended(&record.points, &a.winners));
-    if let Some(method) = winner.and_then(|point| Method::parse(&point.method).ok())
-        && !chosen.iter().any(|c| c.2 == method)
+    let winner = record.analysis.as_ref().and_then(|a| best_of(record, &a.winners));
+    let winning = winner.and_then(|point| Method::parse(&point.method).ok());
+    let asked = record.conditions.question.and(winner);
+    if let Some(method) = winning.clone()
+        && (asked.is_some() || !chosen.iter().any(|c| c.2 == method))
     {
-        chosen.push((WINNER.0, WINNER.1, method));
+        let (heading, text) = if asked.is_some() { ANSWER } else { WINNER };
+        chosen.push((heading, text, method));
     }
     let still = SubProgress { whole: progress, from: 1.0, to: 1.0 };
     let mut panels: Vec<Panel> = Vec::new();
     let mut left_out = 0;
     for (heading, text, method) in chosen.into_iter().filter(|c| sessions.has(&c.2)) {
+        let count = asked.filter(|_| heading == ANSWER.0).map_or(count, |point| point.spp);
         let Some(spp) = next_count(method.pattern_in(scene), count) else { continue };
+        let is_recommended = match asked {
+            Some(_) => heading == ANSWER.0,
+            None => winning.as_ref() == Some(&method),
+        };
         // The first panel is always rendered.
         let seconds = if panels.is_empty() { f64::INFINITY } else { limit.seconds };
         if limit.spent() >= seconds {
@@ -126,7 +138,8 @@ pub fn render(
         let spp = if method.algorithm == Algorithm::Beam { spp } else { film.samples };
         let taken = samples_taken_by(method.algorithm, spp, sampled);
         let rmse = compare(&film, reference)?.rmse;
-        panels.push(Panel { heading, text, method: method.name(), taken, film, rmse });
+        let method = method.label(scene.sampling.pattern);
+        panels.push(Panel { heading, text, method, is_recommended, taken, film, rmse });
     }
     let films: Vec<(&Film, f64)> = panels.iter().map(|p| (&p.film, p.rmse)).collect();
     let window = pictures::worst_window(&films, reference, CROP);

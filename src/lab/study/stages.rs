@@ -26,7 +26,7 @@ pub fn svg<'a>(record: &'a Record) -> String {
     }
     for (row, point) in rows.iter().enumerate() {
         let y = 44.0 + ROW * row as f64;
-        let label = format!("{}, {}", point.method, point.samples);
+        let label = format!("{}, {}", record.label(&point.method), point.samples);
         body += &svg::text(BAR[0] - 8.0, y + 14.0, "end", "small", &label);
         let mut x = BAR[0];
         for (i, time) in times(point).iter().enumerate() {
@@ -34,7 +34,7 @@ pub fn svg<'a>(record: &'a Record) -> String {
             body += &format!(
                 "<rect x=\"{x:.1}\" y=\"{y}\" width=\"{width:.2}\" height=\"18\" class=\"f{}\"><title>{}</title></rect>\n",
                 color_index(i),
-                svg::escape(&format!("{}: {} {}", point.method, STAGES[i], seconds(*time)))
+                svg::escape(&format!("{}: {} {}", record.label(&point.method), STAGES[i], seconds(*time)))
             );
             x += width;
         }

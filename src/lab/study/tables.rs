@@ -1,16 +1,16 @@
 //! The tables of the page: winners, slopes, times to errors, every point, and the conditions.
 
 use super::analysis::{Analysis, MethodSlope};
-use super::format::{error, percent, samples_taken, seconds, times};
+use super::format::{asked_error, asked_seconds, error, percent, samples_taken, seconds, times};
 use super::quote;
-use super::record::{PointRecord, Record};
-use crate::lab::plot::html::{Html, code, html, scroll, table};
+use super::record::{PointRecord, Question, Record};
+use crate::lab::plot::html::{Html, code, html, scroll, section, table};
 
-pub fn winners(analysis: &Analysis) -> Html {
+pub fn winners(record: &Record, analysis: &Analysis) -> Html {
     let row = |w: &super::results::Winner| {
         let about = if w.estimated { "about " } else { "" };
         let rmse = format!("{about}{}", error(w.rmse));
-        let names = std::iter::once(&w.method).chain(&w.ties).map(|name| method(name));
+        let names = std::iter::once(&w.method).chain(&w.ties).map(|name| method(record, name));
         let names = Html::join(names, " = ");
         vec![
             html!("{}", seconds(w.budget)),
@@ -37,10 +37,10 @@ pub fn winners(analysis: &Analysis) -> Html {
     )
 }
 
-pub fn slopes(analysis: &Analysis) -> Html {
+pub fn slopes(record: &Record, analysis: &Analysis) -> Html {
     let row = |s: &MethodSlope| {
         let fitted = match s.fitted {
-            None => "too few points".into(),
+            None => String::new(),
             Some(f) => {
                 let interval = f.half_width.map_or(String::new(), |h| format!(" ± {h:.2}"));
                 minus(format!("{:.2}{interval}", f.value))
@@ -49,16 +49,19 @@ pub fn slopes(analysis: &Analysis) -> Html {
         let points = s.fitted.map_or("–".into(), |f| f.points.to_string());
         let noise = s.interval.map_or("–".into(), |[low, high]| minus(format!("{low:.2} to {high:.2}")));
         let texts = [fitted, points, noise, s.theory_text.clone(), lies_within(s)];
-        std::iter::once(method(&s.method)).chain(texts.iter().map(|text| html!("{}", text))).collect()
+        std::iter::once(method(record, &s.method)).chain(texts.iter().map(|text| html!("{}", text))).collect()
     };
-    let rows: Vec<Vec<Html>> = analysis.slopes.iter().map(row).collect();
+    let fitted = analysis.slopes.iter().filter(|slope| slope.fitted.is_some());
+    let rows: Vec<Vec<Html>> = fitted.map(row).collect();
+    let short = analysis.slopes.iter().filter(|slope| slope.fitted.is_none());
+    let short = folded(short.map(|slope| record.label(&slope.method)), "with too few points for a slope");
     let text = "The slope of the variance (RMSE²) over the rays, fitted to the points that lie well above the \
                 reference's own error, with a 95 % interval by how far they lie from the line; and what noise alone \
                 leaves open, by drawing parts of the picture anew (95 % of 2000 draws). Theory: independent samples \
                 −1; jittered strata −1 where all of a pixel varies, −1.5 along one edge, −2 where it is smooth. A \
                 scene that has all three has a slope between.";
     let head = ["method", "slope", "points", "noise leaves", "theory", "within it"];
-    html!("<p>{}</p>\n", text) + table("Slopes", &head, &rows)
+    html!("<p>{}</p>\n", text) + table("Slopes", &head, &rows) + short
 }
 
 fn minus(text: String) -> String {
@@ -76,12 +79,12 @@ fn lies_within(slope: &MethodSlope) -> String {
     if held.is_empty() { "none".into() } else { held.join(", ") }
 }
 
-pub fn reach(analysis: &Analysis) -> Html {
+pub fn reach(record: &Record, analysis: &Analysis) -> Html {
     let heads: Vec<String> = analysis.reach.errors.iter().map(|e| error(*e)).collect();
     let head: Vec<&str> = std::iter::once("RMSE").chain(heads.iter().map(String::as_str)).collect();
     let row = |(name, cells): &(String, Vec<Option<f64>>)| {
         let cells = cells.iter().map(|c| html!("{}", c.map_or("–".into(), seconds)));
-        std::iter::once(method(name)).chain(cells).collect()
+        std::iter::once(method(record, name)).chain(cells).collect()
     };
     let rows: Vec<Vec<Html>> = analysis.reach.methods.iter().map(row).collect();
     html!("<p>Interpolated between measured points; – where none is as good.</p>\n")
@@ -102,9 +105,8 @@ pub fn points(record: &Record) -> Html {
             percent(e.over_1_255),
             error(e.flip),
         ];
-        let mut cells = vec![method(&p.method)];
+        let mut cells = vec![method(record, &p.method)];
         cells.extend(texts.iter().map(|text| html!("{}", text)));
-        cells.push(html!("<code>{}</code>", p.command));
         cells
     };
     let head = [
@@ -118,16 +120,22 @@ pub fn points(record: &Record) -> Html {
         "max",
         "over 1/255",
         "FLIP",
-        "command",
     ];
     let rows: Vec<Vec<Html>> = record.points.iter().map(row).collect();
     let compare = format!("moire compare point.exr {}", quote(&record.reference.file));
     let text = html!(
-        "<p>Times are medians of the render stage with the least and the most of all repeats. Each command renders \
-         its point to <code>point.exr</code>; this compares it:</p>\n{}",
+        "<p>Times are medians of the render stage with the least and the most of all repeats. The commands below \
+         render points to <code>point.exr</code>; this compares one:</p>\n{}",
         scroll("Comparison with the reference", code(&compare))
     );
-    text + table("Every measured point", &head, &rows)
+    let commands: Vec<&str> = record.points.iter().map(|p| p.command.as_str()).collect();
+    let summary = html!("<summary>The commands of all points, in the same order</summary>\n");
+    let commands = html!(
+        "<details>{}{}</details>\n",
+        summary,
+        scroll("Commands of all points", code(&commands.join("\n")))
+    );
+    text + table("Every measured point", &head, &rows) + commands
 }
 
 pub fn conditions(record: &Record) -> Html {
@@ -149,7 +157,10 @@ pub fn conditions(record: &Record) -> Html {
         fact("repeats", &format!("{}, interleaved", c.repeats)),
         fact("reference", &format!("{}{own}", reference.kind)),
     ];
-    facts.extend(record.notes.iter().map(|note| fact("note", note)));
+    let left_out = |note: &&String| note.contains(" left out");
+    let (omitted, notes): (Vec<&String>, Vec<&String>) = record.notes.iter().partition(left_out);
+    facts.extend(notes.into_iter().map(|note| fact("note", note)));
+    let omitted = folded(omitted.into_iter().map(String::as_str), "left out");
     let limits = serde_json::to_value(&c.device.limits).unwrap_or_default();
     let empty = serde_json::Map::new();
     let limits: Vec<Vec<Html>> = limits
@@ -159,12 +170,60 @@ pub fn conditions(record: &Record) -> Html {
         .map(|(name, value)| fact(&name.replace('_', " "), &value.to_string()))
         .collect();
     html!(
-        "{}<details><summary>Limits of the device</summary>\n{}</details>\n",
+        "{}{}<details><summary>Limits of the device</summary>\n{}</details>\n",
         table("How it was measured", &["what", "value"], &facts),
+        omitted,
         table("Limits of the device", &["limit", "value"], &limits)
     )
 }
 
-fn method(name: &str) -> Html {
-    html!("<code>{}</code>", name)
+/// Returns what answers the question of the study: the best point of each method, in order; a section of its own, or
+/// nothing without a question.
+pub fn answer(record: &Record) -> Html {
+    let Some(question) = record.conditions.question else { return Html::default() };
+    let ranking = question.ranking(&record.points);
+    let row = |p: &&PointRecord| {
+        vec![
+            method(record, &p.method),
+            html!("{}", samples_taken(p)),
+            html!("{}", error(p.errors.rmse)),
+            html!("{}", times(p)),
+        ]
+    };
+    let met: Vec<&PointRecord> = ranking.iter().copied().filter(|p| question.is_met_by(p)).collect();
+    let rows: Vec<Vec<Html>> = met.iter().map(row).collect();
+    let others = ranking.iter().filter(|p| !question.is_met_by(p)).map(|p| record.label(&p.method));
+    let (heading, caption, short) = match question {
+        Question::Budget(limit) => (
+            format!("Best in {}", asked_seconds(limit)),
+            "The least error of each method in that time, the best first",
+            "whose shortest picture takes longer",
+        ),
+        Question::Error(limit) => (
+            format!("Fastest to an RMSE of {}", asked_error(limit)),
+            "The least time of each method to that error, the best first",
+            "that did not come to that error",
+        ),
+    };
+    let head = ["method", "a pixel takes", "RMSE", "render"];
+    section("answer", &heading, long_or_empty(caption, &head, &rows) + folded(others, short))
+}
+
+fn long_or_empty(caption: &str, head: &[&str], rows: &[Vec<Html>]) -> Html {
+    if rows.is_empty() { html!("<p>No measured point does that.</p>\n") } else { table(caption, head, rows) }
+}
+
+/// Returns names or notes in one line that opens; nothing if there are none.
+fn folded<'a>(all: impl Iterator<Item = &'a str>, what: &str) -> Html {
+    let all: Vec<&str> = all.collect();
+    if all.is_empty() {
+        return Html::default();
+    }
+    let items: Html = all.iter().map(|text| html!("<li>{}</li>\n", text)).collect();
+    html!("<details><summary>{} {}</summary>\n<ul>\n{}</ul></details>\n", all.len().to_string(), what, items)
+}
+
+/// Returns the name of a method; its word on the command line is the tooltip.
+fn method(record: &Record, name: &str) -> Html {
+    html!("<span title=\"{}\">{}</span>", name, record.label(name))
 }

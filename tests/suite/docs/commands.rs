@@ -24,14 +24,14 @@ case \" $* \" in
 *' --size '* | *' --crop '* | *' --only '*) ;;
 *)
     case \"$1\" in
-    render | study) set -- \"$@\" --size 64x48 ;;
+    render | study | sheet) set -- \"$@\" --size 64x48 ;;
     verify) set -- \"$@\" --only 'srgb 2×2' ;;
     esac
     ;;
 esac
 case \" $* \" in
 *' --device '*) ;;
-*) case \"$1\" in render | study | verify | stability) set -- \"$@\" --device DEVICE ;; esac ;;
+*) case \"$1\" in render | study | sheet | verify | stability) set -- \"$@\" --device DEVICE ;; esac ;;
 esac
 exec PROGRAM \"$@\"
 ";

@@ -34,6 +34,17 @@ addEventListener("load", () => {
       pictures: [...page.images].map((e) => [e.naturalWidth, box(e).width]),
       boxes: [...page.querySelectorAll(".scroll")].every((e) => e.tabIndex === 0 && e.ariaLabel),
       states,
+      names: [...page.querySelectorAll("svg")].map((svg) => [...svg.querySelectorAll(".name")].map(box))
+        .flatMap((all) => all.filter((a, i) => all.slice(0, i).some((b) => a.left < b.right - 1 && b.left < a.right - 1
+          && a.top < b.bottom - 4 && b.top < a.bottom - 4))).length,
+      outside: [...page.querySelectorAll("svg text")].filter((e) => {
+        const own = box(e), all = box(e.ownerSVGElement);
+        return own.left < all.left - 1 || own.right > all.right + 1;
+      }).length,
+      tables: [...page.querySelectorAll("table")].filter((e) => {
+        const own = e.closest(".scroll");
+        return !own || box(own).right > view.innerWidth;
+      }).length,
     };
   }
   const out = document.createElement("pre");
@@ -64,6 +75,13 @@ fn check(found: &Value, phone: bool) {
     assert!(pictures.iter().map(numbers).all(|[own, shown]| own > 0.0 && shown > 100.0), "{pictures:?}");
     assert_eq!(found["boxes"], true, "boxes that scroll are reached by keyboard and have names");
     let states: Vec<&str> = found["states"].as_array().unwrap().iter().map(|s| s.as_str().unwrap()).collect();
+    for (key, what) in [
+        ("names", "names of lines cover each other"),
+        ("outside", "texts are cut at a plot's ends"),
+        ("tables", "tables are cut, and in no box that scrolls"),
+    ] {
+        assert_eq!(found[key], 0, "{what}");
+    }
     // Off by pointer in two plots and their keys, on again by keyboard.
     assert_eq!(states, ["true0", "false4", "true0"]);
 }

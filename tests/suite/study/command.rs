@@ -111,7 +111,8 @@ fn one_sample_in_the_centre_ties_with_a_grid_of_one() {
         }
     }
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
-    assert!(page.contains("<code>center</code> = <code>grid</code>"), "the page does not name both");
+    let both = "<span title=\"center\">pixel centers</span> = <span title=\"grid\">regular grid</span>";
+    assert!(page.contains(both), "the page does not name both");
 }
 
 #[test]
@@ -146,12 +147,12 @@ fn beams_are_labelled_by_what_they_did() {
     let (record, page) = studied("lens");
     let beam = points(&record).iter().find(|p| p["method"] == "beam").unwrap();
     assert_eq!((&beam["sampled"], &beam["samples"]), (&1.0.into(), &16.into()), "{beam}");
-    assert!(page.contains("<code>beam</code>, 16 samples in every pixel, as beams suit none"));
-    assert!(!page.contains("<code>beam</code>, 1 sample"));
+    assert!(page.contains("beams, 16 samples in every pixel, as beams suit none"));
+    assert!(!page.contains("beams, 1 sample"));
     let (record, page) = studied("s1a");
     let beam = points(&record).iter().find(|p| p["method"] == "beam").unwrap();
     assert_eq!((&beam["sampled"], &beam["samples"]), (&0.0.into(), &1.into()), "{beam}");
-    assert!(page.contains("<code>beam</code>, one beam a pixel") && page.contains("one cone a pixel"));
+    assert!(page.contains("beams, one beam a pixel") && page.contains("one cone a pixel"));
 }
 
 #[test]

@@ -37,6 +37,21 @@ fn every_name_is_read_back_as_the_method_it_was_written_from() {
 }
 
 #[test]
+fn methods_have_the_names_of_the_field_and_none_has_two() {
+    let said = |name: &str| Method::parse(name).unwrap().label(Pattern::Stratified);
+    assert_eq!(said("stratified+cone+linear"), "trilinear, cone footprint");
+    assert_eq!(said("random+cone+ewa"), "EWA, cone footprint, random");
+    assert_eq!(said("stratified+differentials"), "ray differentials");
+    assert_eq!(["center", "sobol-owen", "cone"].map(said), ["pixel centers", "Sobol-Owen", "cones"]);
+    assert_eq!(["adaptive+sobol-owen", "adaptive+halton"].map(said), ["adaptive", "adaptive, Halton"]);
+    let mut all: Vec<String> = every_method().iter().map(|m| m.label(Pattern::Stratified)).collect();
+    let count = all.len();
+    all.sort_unstable();
+    all.dedup();
+    assert_eq!(all.len(), count);
+}
+
+#[test]
 fn words_in_wrong_places_are_errors_that_list_the_names() {
     for wrong in [
         "",

@@ -1,0 +1,300 @@
+//! `moire sheet SCENE --vary NAME=VALUES`: settings side by side in one labelled picture, or one page. All invalid input is
+//! refused before the device starts; a combination that the scene does not allow is told in its cell.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use super::overrides::Overrides;
+use super::progress::Bar;
+use super::render::{check_inputs_kept, parse_part};
+use super::vary::{self, Combination, Vary};
+use super::{DEVICE, MEASURING, OUTPUT};
+use crate::core::counted::counted;
+use crate::core::error::{Error, Result};
+use crate::core::range::Rect;
+use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::metrics::read_picture;
+use crate::lab::sheet::plan::{Cell, Job, Plan, ReferenceChoice, View};
+use crate::lab::sheet::record::Record;
+use crate::lab::sheet::{self, Content};
+use crate::lab::study::plan::next_count;
+use crate::lab::study::{label, quote};
+use crate::output::{self, Format, Named, WriteOptions};
+use crate::scene::model::{Pattern, Scene};
+use crate::scene::prune::prune;
+use crate::scene::{MAX_SPP, advice, is_standard_input};
+use crate::texture::sampler_spec::SamplerSpec;
+
+/// Samples of the reference relative to those of the cell with the most, and the fewest that it has.
+const SAMPLE_FACTOR: u32 = 16;
+const MIN_REFERENCE: u32 = 1024;
+
+/// Compare settings in one labelled picture or page
+///
+/// Renders the scene with each combination of the values of up to three settings: the first makes columns, the second
+/// rows, the third blocks. Each picture has its error against a reference and the time that it took. The ending of the
+/// output chooses a picture or a self-contained HTML page.
+#[derive(clap::Args, Debug)]
+pub struct SheetArgs {
+    /// Scene file or model
+    scene: PathBuf,
+    /// A setting that varies: an option of `moire render` by its name, or a key of the scene, with its values. May be
+    /// given up to three times: columns, rows, blocks
+    #[arg(long, required = true, value_name = "NAME=A,B,…", value_parser = vary::parse, help_heading = OUTPUT)]
+    vary: Vec<Vary>,
+    /// Picture or page to write; the ending selects: png jpg tif html. May be given several times [default: the scene's
+    /// name with -sheet.png, in the current folder]
+    #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
+    output: Vec<PathBuf>,
+    /// Show only this part of each picture, enlarged, and where it lies
+    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_part)]
+    zoom: Option<Rect>,
+    /// Show each pixel as a square of this many [default: as many as fit into 288, with --zoom]
+    #[arg(long, value_name = "N", help_heading = OUTPUT, conflicts_with = "cell", value_parser = clap::value_parser!(u32).range(1..=64))]
+    zoom_factor: Option<u32>,
+    /// Show pictures at most this many pixels wide; wider ones are averaged over squares of pixels, and say so
+    #[arg(long, value_name = "PIXELS", help_heading = OUTPUT, value_parser = clap::value_parser!(u32).range(16..=16384))]
+    cell: Option<u32>,
+    /// Most pictures in a row, where one setting varies [default: 4]
+    #[arg(long, value_name = "N", help_heading = OUTPUT, value_parser = clap::value_parser!(u32).range(1..=64))]
+    columns: Option<u32>,
+    /// Show under each picture its difference from the reference, all on one scale
+    #[arg(long, help_heading = OUTPUT)]
+    diff: bool,
+    /// Reference: a picture file, or none [default: many samples without a prefilter, on the device]
+    #[arg(long, value_name = "FILE|none", help_heading = MEASURING)]
+    reference: Option<String>,
+    /// Samples per pixel of the rendered reference [default: 16 times the most of a cell, at least 1024]
+    #[arg(long, value_name = "N", help_heading = MEASURING, conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SPP)))]
+    reference_spp: Option<u32>,
+    /// Renders of each cell, of whose times the median counts
+    #[arg(long, value_name = "N", help_heading = MEASURING, default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    repeats: u32,
+    #[command(flatten)]
+    overrides: Overrides,
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
+    /// [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
+    device: Option<String>,
+    /// Print what was measured as one JSON object on stdout
+    #[arg(long, help_heading = OUTPUT)]
+    json: bool,
+    /// Print nothing but errors
+    #[arg(short, long, help_heading = OUTPUT)]
+    quiet: bool,
+}
+
+pub fn run(args: &SheetArgs) -> Result<ExitCode> {
+    let bar = Bar::new(args.quiet)?;
+    if is_standard_input(&args.scene) {
+        return Err(Error::with_help(
+            "a sheet reads its scene several times, and names it in commands",
+            "write the scene to a file first",
+        ));
+    }
+    let select = match args.device.as_deref() {
+        Some("oracle") => {
+            return Err(Error::with_help(
+                "a sheet measures a device, and the oracle is none",
+                "name one that `moire devices` lists, or leave --device out",
+            ));
+        }
+        Some(text) => DeviceSelect::parse(text)?,
+        None => DeviceSelect::Default,
+    };
+    let outputs = outputs(args)?;
+    let (plan, warnings) = plan(args)?;
+    plan.check()?;
+    for output in &outputs {
+        plan.jobs().try_for_each(|job| check_inputs_kept(&output.path, &job.scene))?;
+    }
+
+    let gpu = Gpu::open(&select)?;
+    let sheet = sheet::render(&gpu, &plan, &bar);
+    bar.finish();
+    for message in gpu.messages() {
+        super::notify(format_args!("validation: {message}"));
+    }
+    let sheet = sheet?;
+    let mut record = sheet.record.clone();
+    record.warnings = warnings;
+    record.outputs = outputs.iter().map(|output| output.path.display().to_string()).collect();
+    write(&outputs, &Content::new(&plan, sheet))?;
+    report(args, &record)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+struct Output {
+    path: PathBuf,
+    is_page: bool,
+}
+
+fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
+    let mut paths = args.output.clone();
+    if paths.is_empty() {
+        let stem = args.scene.file_stem().unwrap_or("scene".as_ref()).to_string_lossy();
+        paths.push(format!("{stem}-sheet.png").into());
+    }
+    let output = |path: PathBuf| {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let is_page = matches!(ending.as_deref(), Some("html" | "htm"));
+        if is_page {
+            output::check_file_writable(&path)?;
+            return Ok(Output { path, is_page });
+        }
+        let format = output::format_of(&path).ok();
+        if !matches!(format, Some(Format::Png | Format::Jpeg | Format::Tiff)) {
+            return Err(Error::with_help(
+                format!("{}: a sheet is a picture with text, or a page", path.display()),
+                "end its name with one of .png, .jpg, .tif, .html",
+            ));
+        }
+        output::check_writable(&path)?;
+        Ok(Output { path, is_page })
+    };
+    paths.into_iter().map(output).collect()
+}
+
+/// Returns what is to be rendered, and warnings about it.
+fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
+    let (axes, combinations) = vary::combine(&args.vary, &args.overrides)?;
+    if args.columns.is_some() && axes.len() > 1 {
+        return Err(Error::with_help(
+            "--columns arranges the values of one setting, and the first of several has its own columns",
+            "leave --columns away, or vary one setting",
+        ));
+    }
+    let base = args.overrides.load(&args.scene, false)?;
+    let mut scenes = Vec::with_capacity(combinations.len());
+    for combination in &combinations {
+        let mut scene = combination.overrides.load(&args.scene, false)?;
+        let file = scene.clone();
+        let applied = combination.overrides.apply(&mut scene).map(|_| scene);
+        scenes.push((file, applied));
+    }
+    let most = scenes.iter().filter_map(|(_, scene)| scene.as_ref().ok()).map(|s| s.sampling.samples()).max();
+    let spp = reference_samples(args, most.unwrap_or(1))?;
+    let mut warnings: Vec<String> = Vec::new();
+    let mut cells = Vec::with_capacity(combinations.len());
+    for (combination, (file, applied)) in combinations.into_iter().zip(scenes) {
+        let job = match applied {
+            Ok(scene) => Ok(job(args, &combination, [&base, &file], scene, spp)?),
+            Err(why) => Err(why.to_string()),
+        };
+        let told = job.iter().flat_map(|job| advice::of_scene(&job.scene)).collect::<Vec<_>>();
+        warnings.extend(told.into_iter().filter(|told| !warnings.contains(told)).collect::<Vec<_>>());
+        let command = command(args, &combination);
+        cells.push(Cell { at: combination.at, settings: combination.settings, command, job });
+    }
+    let reference = match args.reference.as_deref() {
+        None => ReferenceChoice::Rendered,
+        Some("none") => ReferenceChoice::None,
+        Some(name) => ReferenceChoice::File { name: name.to_owned(), film: read_picture(Path::new(name))? },
+    };
+    if args.diff && matches!(reference, ReferenceChoice::None) {
+        return Err(Error::with_help(
+            "--diff shows differences from a reference, and --reference none has none",
+            "leave one of them away",
+        ));
+    }
+    let view = View {
+        zoom: args.zoom,
+        factor: args.zoom_factor,
+        width: args.cell,
+        difference: args.diff,
+        columns: args.columns,
+    };
+    let (title, scene) = (title(args), args.scene.display().to_string());
+    Ok((Plan { title, scene, axes, cells, reference, repeats: args.repeats, view }, warnings))
+}
+
+/// Returns the work of a cell. `base` is the scene as it is read without what varies, `file` with it.
+fn job(
+    args: &SheetArgs,
+    combination: &Combination,
+    [base, file]: [&Scene; 2],
+    mut scene: Scene,
+    spp: u32,
+) -> Result<Job> {
+    let goal = combination.overrides.goal();
+    let mut reference = file.clone();
+    if base.samplers.len() == file.samplers.len() {
+        // Filters that vary are judged by one reference, which has those of the scene.
+        for (own, base) in reference.samplers.iter_mut().zip(&base.samplers) {
+            let SamplerSpec { address, address_w, border_color, texel_center, .. } = *own;
+            *own = SamplerSpec { address, address_w, border_color, texel_center, ..*base };
+        }
+    }
+    if args.reference.is_none() {
+        combination.overrides.as_reference(&args.overrides, spp).apply(&mut reference).map_err(|why| {
+            Error::with_help(
+                format!("no reference without a prefilter can be rendered: {why}"),
+                "name a picture with --reference, or --reference none",
+            )
+        })?;
+    }
+    prune(&mut scene);
+    prune(&mut reference);
+    Ok(Job { scene, reference, goal })
+}
+
+/// Returns the samples of each half of the reference.
+fn reference_samples(args: &SheetArgs, most: u32) -> Result<u32> {
+    let all =
+        args.reference_spp.unwrap_or(most.saturating_mul(SAMPLE_FACTOR).max(MIN_REFERENCE)).min(MAX_SPP);
+    next_count(Pattern::Stratified, all.div_ceil(2)).ok_or_else(|| {
+        Error::new(format!("--reference-spp {all}: there is no number of strata from there on"))
+    })
+}
+
+fn title(args: &SheetArgs) -> String {
+    let stem = args.scene.file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
+    let fixed = args.overrides.given().into_iter().filter(|(name, _)| *name != "size");
+    let words = fixed.map(|(name, value)| label::setting(name, &value));
+    std::iter::once(stem).chain(words).collect::<Vec<_>>().join(", ")
+}
+
+fn command(args: &SheetArgs, combination: &Combination) -> String {
+    let mut words = vec!["moire".to_owned(), "render".into(), args.scene.display().to_string()];
+    let given = combination.overrides.given();
+    words.extend(given.into_iter().flat_map(|(name, value)| [format!("--{name}"), value]));
+    if let Some(device) = &args.device {
+        words.extend(["--device".to_owned(), device.clone()]);
+    }
+    words.extend(["-o".to_owned(), "cell.png".into()]);
+    words.iter().map(|word| quote(word)).collect::<Vec<_>>().join(" ")
+}
+
+fn write(outputs: &[Output], content: &Content) -> Result<()> {
+    let page = outputs.iter().any(|output| output.is_page).then(|| sheet::html(content)).transpose()?;
+    let film = outputs.iter().any(|output| !output.is_page).then(|| sheet::compose(content));
+    let pictures: Vec<Named<'_>> = outputs
+        .iter()
+        .filter(|output| !output.is_page)
+        .filter_map(|output| Some(Named { film: film.as_ref()?, path: &output.path }))
+        .collect();
+    output::write_pictures(&pictures, &WriteOptions::default(), || {
+        let pages = outputs.iter().filter(|output| output.is_page);
+        pages
+            .zip(page.iter().cycle())
+            .try_for_each(|(output, page)| output::write_file(&output.path, page.as_bytes()))
+    })
+}
+
+fn report(args: &SheetArgs, record: &Record) -> Result<()> {
+    if args.json {
+        let json = serde_json::to_string_pretty(record);
+        super::print(&json.map_err(|e| Error::new(format!("the sheet as JSON: {e}")))?)?;
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    record.warnings.iter().for_each(|warning| super::notify(format_args!("warning: {warning}")));
+    for cell in &record.cells {
+        if let Some(why) = &cell.error {
+            super::notify(format_args!("{}: no picture: {why}", cell.label));
+        }
+    }
+    super::notify(format_args!("{}: {}", record.outputs.join(", "), counted(record.cells.len(), "cell")));
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! The content of a sheet, whatever it is written as: rows of cells with their heads, captions and notes. Input: the
+//! plan, and what was rendered. Output: pictures and texts in the order in which they are read.
+
+use super::plan::{Plan, ReferenceChoice};
+use super::record::{CellRecord, Record};
+use super::render::{Sheet, Shown};
+use crate::core::film::Film;
+use crate::core::range::Rect;
+use crate::lab::study::format::{error, samples, seconds};
+use crate::lab::study::pictures::false_color;
+use crate::scene::model::Scene;
+
+/// The columns of a sheet with one axis, unless their number is given.
+const COLUMNS: usize = 4;
+
+pub enum Body {
+    Picture {
+        film: Film,
+        difference: Option<Film>,
+    },
+    /// The whole picture, and the part of it that the others show.
+    Whole {
+        film: Film,
+        full: [u32; 2],
+        part: Rect,
+    },
+    /// Why there is no picture.
+    Missing(String),
+}
+
+pub struct Entry {
+    /// The head of a cell that stands in no table.
+    pub heading: Option<String>,
+    pub body: Body,
+    /// What a person hears who does not see the picture.
+    pub description: String,
+    pub caption: Vec<String>,
+    /// The command that renders the picture alone.
+    pub command: Option<String>,
+}
+
+pub struct Row {
+    pub heading: Option<String>,
+    pub entries: Vec<Entry>,
+}
+
+pub struct Block {
+    pub heading: Option<String>,
+    /// The heads of columns, if rows and columns are those of a table.
+    pub columns: Vec<String>,
+    pub rows: Vec<Row>,
+}
+
+pub struct Content {
+    pub title: String,
+    pub blocks: Vec<Block>,
+    /// By how much the pixels of pictures are enlarged.
+    pub factor: u32,
+    /// The value of the light end of the differences' colours.
+    pub difference_scale: Option<f64>,
+    /// Under what conditions it was measured, and how to read it.
+    pub notes: Vec<String>,
+}
+
+impl Content {
+    pub fn new(plan: &Plan, mut sheet: Sheet) -> Content {
+        let notes = notes(plan, &sheet.record);
+        let scale = sheet.record.difference_scale;
+        let extras = extras(plan, &mut sheet);
+        let Sheet { record, pictures, .. } = sheet;
+        let entries = record.cells.iter().zip(pictures);
+        let entries: Vec<Entry> = entries.map(|(cell, shown)| entry(plan, cell, shown, scale)).collect();
+        Content {
+            title: plan.title.clone(),
+            blocks: blocks(plan, entries, extras),
+            factor: plan.view.enlarged(),
+            difference_scale: scale.map(f64::from),
+            notes,
+        }
+    }
+}
+
+fn entry(plan: &Plan, cell: &CellRecord, shown: Option<Shown>, scale: Option<f32>) -> Entry {
+    let why = || cell.error.clone().unwrap_or_else(|| "not rendered".into());
+    let body = shown.map_or_else(|| Body::Missing(why()), |shown| picture(shown, scale));
+    let mut caption = Vec::new();
+    if let (Some(rmse), Some(flip)) = (cell.rmse, cell.flip) {
+        caption.push(format!("RMSE {}, FLIP {flip:.3}", error(rmse)));
+    } else if cell.reference.is_some() {
+        caption.push("RMSE –: pixels that are no numbers".into());
+    }
+    if let Some(time) = cell.median_device_seconds {
+        let is_said =
+            plan.axes.iter().any(|axis| axis.name == "spp") && cell.taken == samples(cell.samples as u32);
+        let taken = if is_said { String::new() } else { format!(", {}", cell.taken) };
+        caption.push(format!("{}{taken}", seconds(time)));
+        let step = plan.view.reduced(cell.size);
+        if step > 1 {
+            caption.push(format!("shown at 1/{step}, averaged"));
+        }
+    }
+    let description = format!("{}: {}", cell.label, caption.join(", "));
+    Entry { heading: None, body, description, caption, command: Some(cell.command.clone()) }
+}
+
+fn picture(shown: Shown, scale: Option<f32>) -> Body {
+    let width = shown.film.width;
+    let difference = shown.difference.map(|values| false_color(&values, width, scale.unwrap_or(1.0)));
+    Body::Picture { film: shown.film, difference }
+}
+
+/// Returns what stands beside the cells for comparison: the whole picture, and the reference.
+fn extras(plan: &Plan, sheet: &mut Sheet) -> Vec<Entry> {
+    let mut found = Vec::new();
+    let first = plan.jobs().next();
+    if let (Some(film), Some(part), Some(job)) = (sheet.whole.take(), plan.view.zoom, first) {
+        let full = [job.scene.width, job.scene.height];
+        let step = full[0].div_ceil(film.width.max(1));
+        let size = if step > 1 { format!(", shown at 1/{step}") } else { String::new() };
+        let frame = format!("{}×{} pixels from ({}, {})", part.width, part.height, part.x, part.y);
+        found.push(Entry {
+            heading: Some("whole picture".into()),
+            description: format!("The whole picture; a frame marks {frame}, which the others show enlarged"),
+            caption: vec![format!("{}×{}{size}", full[0], full[1]), format!("frame: {frame}")],
+            body: Body::Whole { film, full, part },
+            command: None,
+        });
+    }
+    if let Some(shown) = sheet.reference.take() {
+        let record = sheet.record.references.first();
+        let own =
+            record.and_then(|record| record.rmse).map(|rmse| format!("itself off by RMSE {}", error(rmse)));
+        let kind = record.map(|record| match &plan.reference {
+            ReferenceChoice::Rendered => samples(record.samples),
+            _ => record.kind.clone(),
+        });
+        let caption: Vec<String> = kind.into_iter().chain(own).collect();
+        found.push(Entry {
+            heading: Some("reference".into()),
+            description: format!("The reference: {}", caption.join(", ")),
+            caption,
+            body: Body::Picture { film: shown.film, difference: None },
+            command: None,
+        });
+    }
+    found
+}
+
+fn blocks(plan: &Plan, entries: Vec<Entry>, extras: Vec<Entry>) -> Vec<Block> {
+    let labels = |axis: usize| plan.axes.get(axis).map_or(&[][..], |axis| &axis.labels);
+    let mut entries = entries.into_iter();
+    if plan.axes.len() == 1 {
+        let headed =
+            entries.zip(labels(0)).map(|(entry, label)| Entry { heading: Some(label.clone()), ..entry });
+        let all: Vec<Entry> = headed.chain(extras).collect();
+        let columns = plan.view.columns.map_or(COLUMNS, |columns| columns as usize);
+        return vec![Block { heading: None, columns: Vec::new(), rows: wrapped(all, columns) }];
+    }
+    let [columns, rows] = [labels(0), labels(1)];
+    let headings =
+        if plan.axes.len() > 2 { labels(2).iter().cloned().map(Some).collect() } else { vec![None] };
+    let mut blocks = Vec::new();
+    for heading in headings {
+        let row = |label: &String| Row {
+            heading: Some(label.clone()),
+            entries: entries.by_ref().take(columns.len()).collect(),
+        };
+        blocks.push(Block { heading, columns: columns.to_vec(), rows: rows.iter().map(row).collect() });
+    }
+    if !extras.is_empty() {
+        blocks.push(Block {
+            heading: None,
+            columns: Vec::new(),
+            rows: vec![Row { heading: None, entries: extras }],
+        });
+    }
+    blocks
+}
+
+/// Returns rows of as equal lengths as possible.
+fn wrapped(entries: Vec<Entry>, most: usize) -> Vec<Row> {
+    let rows = entries.len().div_ceil(most.max(1)).max(1);
+    let length = entries.len().div_ceil(rows).max(1);
+    let mut found: Vec<Row> = Vec::new();
+    for entry in entries {
+        match found.last_mut() {
+            Some(row) if row.entries.len() < length => row.entries.push(entry),
+            _ => found.push(Row { heading: None, entries: vec![entry] }),
+        }
+    }
+    found
+}
+
+fn notes(plan: &Plan, record: &Record) -> Vec<String> {
+    let sizes = |scene: &Scene| format!("{}×{}", scene.width, scene.height);
+    let mut all: Vec<String> = plan.jobs().map(|job| sizes(&job.scene)).collect();
+    all.dedup();
+    let size = if all.len() == 1 { format!("{} pixels, ", all[0]) } else { String::new() };
+    let times = match plan.repeats {
+        1 => "times: one render each".to_owned(),
+        many => format!("times: median of {many} renders"),
+    };
+    let mut notes =
+        vec![format!("{size}{}; {times}, on the device, without loading and compiling", record.device)];
+    if let Some(reference) = record.references.first() {
+        let kind = match record.references.len() {
+            1 => reference.kind.clone(),
+            many => format!("one for each of {many} views, {}", reference.kind),
+        };
+        notes.push(format!("RMSE and FLIP of the whole picture against the reference: {kind}"));
+    }
+    if let Some(scale) = record.difference_scale {
+        notes.push(format!(
+            "lower pictures: difference from the reference, mean of three channels, from 0 (dark) to {} or more (light)",
+            error(f64::from(scale))
+        ));
+    }
+    if plan.view.zoom.is_some() && plan.view.enlarged() > 1 {
+        notes.push(format!("each pixel of the part is shown as {0}×{0}", plan.view.enlarged()));
+    }
+    notes
+}

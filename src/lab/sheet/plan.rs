@@ -1,0 +1,189 @@
+//! What a sheet is to show: axes, cells with their scenes, the reference and the part that is seen. Checked here before a
+//! device starts: the numbers of axes and cells, the part, and the size of the sheet.
+
+use std::collections::BTreeMap;
+
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::range::Rect;
+use crate::integrators::adaptive::Goal;
+use crate::scene::model::Scene;
+
+/// Columns, rows and blocks.
+pub const MAX_AXES: usize = 3;
+pub const MAX_CELLS: usize = 64;
+/// The most pixels of all pictures of a sheet, in millions: 12 bytes each, twice while they are put together.
+const MAX_MEGAPIXELS: u64 = 40;
+/// The width in pixels up to which a part is enlarged, unless a factor is given.
+const ENLARGED_WIDTH: u32 = 288;
+const MAX_FACTOR: u32 = 16;
+
+/// A setting that varies.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    pub name: String,
+    /// The values as a person calls them.
+    pub labels: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// The index into the values of each axis.
+    pub at: Vec<usize>,
+    /// The varied settings, by their names.
+    pub settings: BTreeMap<String, String>,
+    /// The command that renders the picture alone.
+    pub command: String,
+    /// What is rendered, or why it cannot be.
+    pub job: Result<Job, String>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// What is rendered, without what the picture does not need.
+    pub scene: Scene,
+    /// The same view by samples without a prefilter.
+    pub reference: Scene,
+    /// The end of sampling, if it is no number of samples.
+    pub goal: Option<Goal>,
+}
+
+/// What errors are measured against.
+#[derive(Clone, Debug)]
+pub enum ReferenceChoice {
+    /// As many samples as the references of the cells have.
+    Rendered,
+    File {
+        name: String,
+        film: Film,
+    },
+    None,
+}
+
+/// How pictures are shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct View {
+    /// The part that is shown of each picture.
+    pub zoom: Option<Rect>,
+    /// How many pixels of the sheet each side of a pixel of the part takes.
+    pub factor: Option<u32>,
+    /// The most pixels of a picture in a row; wider ones are averaged over squares.
+    pub width: Option<u32>,
+    /// True if the difference from the reference is shown, too.
+    pub difference: bool,
+    /// The columns of a sheet with one axis.
+    pub columns: Option<u32>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The scene's name, and the settings that do not vary.
+    pub title: String,
+    pub scene: String,
+    pub axes: Vec<Axis>,
+    /// All combinations, the first axis fastest.
+    pub cells: Vec<Cell>,
+    pub reference: ReferenceChoice,
+    pub repeats: u32,
+    pub view: View,
+}
+
+impl Plan {
+    pub fn jobs(&self) -> impl Iterator<Item = &Job> {
+        self.cells.iter().filter_map(|cell| cell.job.as_ref().ok())
+    }
+
+    /// Refuses a plan of which nothing can be shown.
+    pub fn check(&self) -> Result<()> {
+        if self.jobs().next().is_none() {
+            let why = self.cells.iter().find_map(|cell| cell.job.as_ref().err());
+            return Err(Error::with_help(
+                format!("no cell of this sheet can be rendered: {}", why.map_or("", String::as_str)),
+                "vary another setting, or give the scene the settings that all cells need",
+            ));
+        }
+        for job in self.jobs() {
+            let size = [job.scene.width, job.scene.height];
+            if let Some(zoom) = self.view.zoom {
+                zoom.check_within(size).map_err(|_| outside(zoom, size))?;
+            }
+            if let ReferenceChoice::File { name, film } = &self.reference
+                && [film.width, film.height] != size
+            {
+                return Err(Error::with_help(
+                    format!(
+                        "reference {name}: {}×{} pixels, and the sheet renders {}×{}",
+                        film.width, film.height, size[0], size[1]
+                    ),
+                    "name a reference of the same size, or set the pictures' with --size",
+                ));
+            }
+        }
+        self.check_pixels()
+    }
+
+    fn check_pixels(&self) -> Result<()> {
+        let extra = if matches!(self.reference, ReferenceChoice::None) { 0 } else { 1 };
+        let each = if self.view.difference { 2 } else { 1 };
+        let shown = |job: &Job| {
+            let [width, height] = self.view.shown([job.scene.width, job.scene.height]);
+            u64::from(width) * u64::from(height)
+        };
+        let largest = self.jobs().map(shown).max().unwrap_or(0);
+        let pixels = self.jobs().map(|job| each * shown(job)).sum::<u64>() + extra * largest;
+        if pixels <= MAX_MEGAPIXELS * 1_000_000 {
+            return Ok(());
+        }
+        Err(Error::with_help(
+            format!(
+                "the pictures of this sheet have {} million pixels, of which it takes {MAX_MEGAPIXELS} million",
+                pixels.div_ceil(1_000_000)
+            ),
+            "show a part with --zoom, narrower pictures with --cell, or smaller ones with --size",
+        ))
+    }
+}
+
+fn outside(zoom: Rect, [width, height]: [u32; 2]) -> Error {
+    Error::with_help(
+        format!(
+            "--zoom {},{},{},{} reaches outside the picture of {width}×{height} pixels",
+            zoom.x, zoom.y, zoom.width, zoom.height
+        ),
+        "name a part of the picture: the pixel of its top left corner, its width and its height",
+    )
+}
+
+impl View {
+    /// Returns the part that is shown of a picture.
+    pub fn part(&self, size: [u32; 2]) -> Rect {
+        self.zoom.unwrap_or(Rect::whole(size))
+    }
+
+    /// Returns by how much pixels are enlarged.
+    pub fn enlarged(&self) -> u32 {
+        match (self.factor, self.zoom) {
+            (Some(factor), _) => factor,
+            (None, Some(zoom)) => {
+                (self.width.unwrap_or(ENLARGED_WIDTH) / zoom.width.max(1)).clamp(1, MAX_FACTOR)
+            }
+            (None, None) => 1,
+        }
+    }
+
+    /// Returns over how many pixels along each side are averaged.
+    pub fn reduced(&self, size: [u32; 2]) -> u32 {
+        let part = self.part(size);
+        self.width.map_or(1, |most| (part.width * self.enlarged()).div_ceil(most)).max(1)
+    }
+
+    /// Returns the pixels of the sheet that a picture takes.
+    pub fn shown(&self, size: [u32; 2]) -> [u32; 2] {
+        let (part, factor, step) = (self.part(size), self.enlarged(), self.reduced(size));
+        let side = |pixels: u32| {
+            let all = if step > 1 { pixels / step } else { pixels.saturating_mul(factor) };
+            all.max(1)
+        };
+        [side(part.width), side(part.height)]
+    }
+}

@@ -1,0 +1,61 @@
+//! Mistakes are refused before anything is rendered, with what is allowed; no file is left.
+
+use moire::internal::output::{WriteOptions, write};
+use tempfile::tempdir;
+
+use super::{sheet, told};
+use crate::support::gradient;
+
+#[test]
+fn mistakes_end_with_exit_code_2_and_leave_no_file() {
+    let folder = tempdir().unwrap();
+    let kept = folder.path().join("small.exr");
+    write(&gradient(3, 3), &kept, &WriteOptions::default()).unwrap();
+    let spp = ["--vary", "spp=1,4"];
+    let with = |more: &[&'static str]| [&spp[..], more].concat();
+    for (options, what) in [
+        (vec![], "--vary"),
+        (vec!["--vary", "fliter=ewa"], "did you mean filter?"),
+        (vec!["--vary", "filter=neares"], "a similar value exists: 'nearest'"),
+        (vec!["--vary", "filter=nearest,,ewa"], "a value is missing"),
+        (vec!["--vary", "spp=1,1"], "1 is named twice"),
+        (vec!["--vary", "sampler.tile.filter=ewa"], "tile"),
+        (vec!["--vary", "sampler.*.filter=ewa,neares"], "neares"),
+        (vec!["--vary", "spp=x"], "invalid value 'x' for '--spp"),
+        (with(&["--vary", "spp=16"]), "--vary spp is given twice"),
+        (with(&["--spp", "4"]), "--spp fixes what --vary spp varies"),
+        (with(&["--vary", "seed=1,2", "--vary", "filter=ewa", "--vary", "mip=none"]), "given 4 times"),
+        (vec!["--vary", "seed=1,2,3,4,5,6,7,8,9", "--vary", "spp=1,2,3,4,5,6,7,8"], "make 72 cells"),
+        (with(&["--zoom", "400,0,200,20"]), "--zoom 400,0,200,20 reaches outside the picture of 512×384"),
+        (with(&["--zoom", "1,2,3"]), "expected X,Y,W,H"),
+        (with(&["--columns", "2", "--vary", "seed=1,2"]), "--columns arranges the values of one setting"),
+        (with(&["--zoom-factor", "2", "--cell", "100"]), "cannot be used with"),
+        (with(&["--reference", "small.exr"]), "3×3 pixels, and the sheet renders 512×384"),
+        (with(&["--reference", "none.exr"]), "none.exr"),
+        (with(&["--reference", "none", "--diff"]), "--diff shows differences from a reference"),
+        (with(&["-o", "a.exr"]), "end its name with one of .png, .jpg, .tif, .html"),
+        (with(&["-o", "none/a.html"]), "none"),
+        (
+            vec!["--vary", "size=4096x4096,4096x4095,4096x4094"],
+            "have 68 million pixels, of which it takes 40",
+        ),
+        (with(&["--device", "oracle"]), "--device"),
+        (vec!["--vary", "spp=2,3"], "no cell of this sheet can be rendered: --spp: "),
+    ] {
+        let output = sheet(folder.path(), &options);
+        assert_eq!(output.status.code(), Some(2), "{options:?}: {}", told(&output));
+        assert!(told(&output).contains(what), "{what} not in: {}", told(&output));
+        let files = std::fs::read_dir(folder.path()).unwrap().count();
+        assert_eq!(files, 1, "{options:?} left a file");
+    }
+}
+
+#[test]
+fn a_sheet_of_the_oracle_is_refused_by_name() {
+    let refused = crate::support::moire()
+        .args(["sheet", "x.toml", "--vary", "spp=1,4", "--device", "oracle"])
+        .output()
+        .unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(told(&refused).contains("a sheet measures a device"), "{}", told(&refused));
+}
