@@ -49,6 +49,8 @@ mod specialization;
 mod surface_enums;
 #[path = "build/uncontracted.rs"]
 mod uncontracted;
+#[path = "build/version.rs"]
+mod version;
 
 use reflect::Reflection;
 use shaders::{FAMILIES, Family};
@@ -62,6 +64,7 @@ fn main() -> Result<(), AnyError> {
     for folder in built_in::FOLDERS {
         println!("cargo:rerun-if-changed=data/{folder}");
     }
+    version::set();
     let out = PathBuf::from(env::var("OUT_DIR")?);
     fs::write(out.join("built_in.rs"), built_in::list()?)?;
     let generated = out.join("schema");

@@ -52,6 +52,7 @@ mod tree;
 pub use crate::core::error::{Error, ErrorKind, Result};
 pub use crate::core::film::Film;
 pub use crate::core::progress::Progress;
-pub use crate::face::{RenderOptions, RenderReport, Renderer};
+pub use crate::face::{RenderOptions, RenderReport, Renderer, SaveOptions};
 pub use crate::lab::metrics::Comparison;
+pub use crate::output::{Gamut, ToneMap};
 pub use crate::scene::{Scene, SceneBuilder};

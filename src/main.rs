@@ -3,16 +3,17 @@
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use moire::internal::cli::{
-    self, compare, devices, inspect, new, pattern, render, sheet, stability, study, texture, verify,
+    self, compare, completions, devices, inspect, man, new, pattern, render, sheet, stability, study,
+    texture, verify, version,
 };
 use moire::internal::core::error::Result;
 use moire::internal::core::panics;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
 #[derive(Parser)]
-#[command(name = "moire", version)]
+#[command(name = "moire", version, long_version = version::long())]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -42,14 +43,20 @@ enum Command {
     Verify(verify::VerifyArgs),
     /// Sweep extreme cases on a device, with errors against float64
     Stability(stability::StabilityArgs),
+    /// Print a script by which a shell completes commands, options and values
+    Completions(completions::CompletionsArgs),
+    /// Print the manual, or write a page for each command
+    Man(man::ManArgs),
 }
 
 fn main() -> ExitCode {
     cli::prepare_process();
     panics::record();
     cli::exit_code(panics::contain(&"moire", || {
-        let command = Cli::parse().command;
-        panics::contain(&format_args!("moire {}", command.name()), || command.run())
+        let matches = Cli::command().get_matches();
+        let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
+        let own = matches.subcommand().map(|(_, own)| own);
+        panics::contain(&format_args!("moire {}", command.name()), || command.run(own.unwrap_or(&matches)))
     }))
 }
 
@@ -67,12 +74,15 @@ impl Command {
             Command::Pattern(_) => "pattern",
             Command::Verify(_) => "verify",
             Command::Stability(_) => "stability",
+            Command::Completions(_) => "completions",
+            Command::Man(_) => "man",
         }
     }
 
-    fn run(self) -> Result<ExitCode> {
+    /// Runs the command. `matches`: its own arguments as they were typed.
+    fn run(self, matches: &ArgMatches) -> Result<ExitCode> {
         match self {
-            Command::Render(args) => render::run(&args),
+            Command::Render(args) => render::run(&args, matches),
             Command::New(args) => new::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Sheet(args) => sheet::run(&args),
@@ -83,6 +93,8 @@ impl Command {
             Command::Pattern(args) => pattern::run(&args),
             Command::Verify(args) => verify::run(&args),
             Command::Stability(args) => stability::run(&args),
+            Command::Completions(args) => completions::run(&args, Cli::command()),
+            Command::Man(args) => man::run(&args, Cli::command()),
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::core::layer::Layer;
 use crate::core::progress::Progress;
 use crate::lab::inspect::picture::picture;
 use crate::lab::inspect::uses::name_of;
-use crate::output::{self, Format, Named, WriteOptions};
+use crate::output::{self, DisplayTransform, Format, Named, WriteOptions};
 use crate::render::layers::{Aov, render_layers};
 use crate::render::{On, Options, Picture};
 use crate::scene::model::Scene;
@@ -132,7 +132,10 @@ impl Wanted {
             .iter()
             .filter_map(|own| Some(picture(own.aov, layer(own.aov)?, [film.width, film.height], &names)))
             .collect();
-        let beside = films.iter().zip(&self.pictures).map(|(film, own)| Named { film, path: &own.path });
+        // False colours stand for numbers: they stay as they are. Their record would make the picture, not them.
+        let plain = WriteOptions { display: DisplayTransform::default(), record: None, ..*options };
+        let pairs = films.iter().zip(&self.pictures);
+        let beside = pairs.map(|(film, own)| Named { film, path: &own.path, options: &plain });
         let options = WriteOptions { layers, has_colors: self.has_beauty, ..*options };
         outputs.write_with(film, &beside.collect::<Vec<_>>(), &options)
     }

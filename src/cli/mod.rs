@@ -1,24 +1,32 @@
 //! The command line: one file per subcommand, each with its arguments and a `run`.
 
 pub mod compare;
+pub mod completions;
 pub mod devices;
+mod display;
 pub mod inspect;
 mod layers;
+pub mod man;
 pub mod new;
 mod outputs;
 mod overrides;
 pub mod pattern;
 mod progress;
 mod quantity;
+mod record;
 pub mod render;
+mod render_args;
+mod replay;
 mod report;
 pub mod sheet;
 pub mod stability;
 pub mod study;
 pub mod texture;
 mod texture_levels;
+mod typed;
 mod vary;
 pub mod verify;
+pub mod version;
 mod watch;
 
 use std::ffi::OsStr;
@@ -37,6 +45,7 @@ use crate::scene::synonyms::meant;
 
 /// Headings of option groups in the help.
 const OUTPUT: &str = "Output";
+const DISPLAY: &str = "Display";
 const SAMPLING: &str = "Sampling";
 const TEXTURES: &str = "Textures";
 const DEVICE: &str = "Device";

@@ -18,7 +18,8 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    pub fn new(scene: &Path, asked: &[PathBuf], format: Option<Format>, json: bool) -> Result<Outputs> {
+    /// Returns the outputs that are asked for; without any, it is `default`.
+    pub fn new(default: PathBuf, asked: &[PathBuf], format: Option<Format>, json: bool) -> Result<Outputs> {
         let (streams, mut files): (Vec<_>, Vec<_>) =
             asked.iter().cloned().partition(|path| path == Path::new("-"));
         let formats = || format!("name one with --format: {}", ENDING_NAMES.join(", "));
@@ -52,7 +53,7 @@ impl Outputs {
             ));
         }
         if asked.is_empty() {
-            files.push(default_name(scene));
+            files.push(default);
         }
         Ok(Outputs { files, stream })
     }
@@ -62,12 +63,17 @@ impl Outputs {
     pub fn write_with(&self, film: &Film, beside: &[Named<'_>], options: &WriteOptions) -> Result<()> {
         let is_written =
             |path: &&PathBuf| options.has_colors || matches!(output::format_of(path), Ok(Format::Exr));
-        let own = self.files.iter().filter(is_written).map(|path| Named { film, path });
+        let own = self.files.iter().filter(is_written).map(|path| Named { film, path, options });
         let pictures: Vec<Named<'_>> = own.chain(beside.iter().copied()).collect();
-        output::write_pictures(&pictures, options, || match self.stream {
+        output::write_pictures(&pictures, || match self.stream {
             Some(format) => super::print_bytes(&output::to_bytes_with(film, format, options)?),
             None => Ok(()),
         })
+    }
+
+    /// Returns the formats of all outputs.
+    pub fn formats(&self) -> impl Iterator<Item = Format> {
+        self.files.iter().filter_map(|path| output::format_of(path).ok()).chain(self.stream)
     }
 
     /// Returns descriptions for messages, the files as the user named them.
@@ -78,7 +84,7 @@ impl Outputs {
 }
 
 /// Returns the scene's name with `.png`, in the current folder.
-fn default_name(scene: &Path) -> PathBuf {
+pub fn default_name(scene: &Path) -> PathBuf {
     let built_in = BuiltIn::named(scene).ok().flatten();
     let stem = match built_in {
         Some(built_in) => Some(built_in.name.as_ref()),

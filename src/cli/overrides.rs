@@ -77,7 +77,8 @@ impl Overrides {
         crate::scene::load_as(path, &self.reading(keeps_meshes))
     }
 
-    fn reading(&self, keeps_meshes: bool) -> Reading<'_> {
+    /// Returns how the scene is read: seen by the chosen camera, with the settings.
+    pub fn reading(&self, keeps_meshes: bool) -> Reading<'_> {
         Reading { camera: self.camera.as_deref(), keeps_meshes, settings: &self.set }
     }
 

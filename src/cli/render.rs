@@ -1,117 +1,68 @@
 //! `moire render`: renders a scene file with options into pictures and, with `--json`, one JSON
 //! object of statistics. All invalid input is refused before the device starts.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::Args;
+use clap::ArgMatches;
 
-use super::layers::{LayerArgs, Wanted};
-use super::outputs::Outputs;
-use super::overrides::Overrides;
+use super::layers::Wanted;
+use super::outputs::{Outputs, default_name};
 use super::progress::Bar;
+use super::record::Record;
+pub use super::render_args::RenderArgs;
+use super::replay::{self, Replay};
 use super::report;
 use super::watch;
-use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::core::progress::Progress;
-use crate::core::range::Rect;
 use crate::gpu::DeviceSelect;
 use crate::lab::verify::known::anisotropy_fault;
-use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
-use crate::render::{self, EstimateChoice, Kept, MipChoice, On, Options, Picture, TexelChoice, Tuning};
-use crate::scene::advice;
+use crate::output::{self, WriteOptions};
+use crate::render::{self, Kept, On, Options, Picture, Tuning};
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
+use crate::scene::{self, SceneFile, advice};
 use crate::texture::read_file::is_turned;
 use crate::texture::source::OrientationUse;
 
-#[derive(Args, Debug)]
-pub struct RenderArgs {
-    /// Scene file or model (glTF, OBJ, PLY, STL), or - for standard input
-    pub(super) scene: PathBuf,
-    /// Picture to write; the ending selects the format: exr hdr (linear float), png jpg tif (sRGB). May be given
-    /// several times; - is standard output [default: the scene's name with .png, in the current folder]
-    #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
-    output: Vec<PathBuf>,
-    /// Format of what -o - writes
-    #[arg(long, value_name = "FORMAT", value_parser = super::named_parser(&ENDING_NAMES, output::format_named), help_heading = OUTPUT)]
-    format: Option<Format>,
-    #[command(flatten)]
-    layers: LayerArgs,
-    #[command(flatten)]
-    overrides: Overrides,
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU).
-    /// May be given several times, also one device: strips of the picture are assigned to them in turn [default:
-    /// discrete GPU, else integrated, else CPU]
-    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
-    device: Vec<String>,
-    /// Render only this part, in pixels of the full picture
-    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_part)]
-    crop: Option<Rect>,
-    /// Build the pipeline with all features, to measure the gain of leaving some out
-    #[arg(long, help_heading = MEASURING)]
-    keep_everything: bool,
-    /// Accept textures with NaN and infinite texels, which are otherwise errors; the pixels that show them are NaN or
-    /// infinite too, and counted
-    #[arg(long, help_heading = TEXTURES)]
-    allow_nonfinite: bool,
-    /// Where look-ups of method shader read texels
-    #[arg(long, value_name = "SOURCE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
-    texels: TexelChoice,
-    /// Where box mip chains of textures are generated, if their lengths are powers of two
-    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
-    mips: MipChoice,
-    /// Where errors are estimated and samples distributed with --target-error, --budget and adaptive sampling
-    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(EstimateChoice::NAMES, EstimateChoice::from_name))]
-    estimates: EstimateChoice,
-    /// Workgroup shape, for measurements [default: by device]
-    #[arg(long, value_name = "WxH", help_heading = MEASURING, value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
-    workgroup: Option<[u32; 2]>,
-    /// Bits per channel of PNG files
-    #[arg(long, value_name = "BITS", help_heading = OUTPUT, default_value = "8", value_parser = ["8", "16"])]
-    png_bits: String,
-    /// Count on the device how often limits are exceeded: coordinates that are NaN or infinite, levels, footprints,
-    /// depth; -v counts too
-    #[arg(long, help_heading = MEASURING)]
-    guards: bool,
-    /// Render again whenever the scene or one of its files changes, until Ctrl-C
-    #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
-    watch: bool,
-    /// Print one JSON object on stdout
-    #[arg(long, help_heading = OUTPUT)]
-    json: bool,
-    /// Print nothing but errors
-    #[arg(short, long, conflicts_with = "verbose", help_heading = OUTPUT)]
-    pub(super) quiet: bool,
-    /// Print what was left out and how textures are stored
-    #[arg(short, long, help_heading = OUTPUT)]
-    verbose: bool,
+/// Renders. `matches`: the arguments as they were typed.
+pub fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<ExitCode> {
+    let Some(picture) = &args.from else { return start(Job::new(args, matches, None)?) };
+    let replay = Replay::open(picture)?;
+    let (args, matches) = replay.arguments(matches)?;
+    start(Job::new(&args, &matches, Some(&replay))?)
 }
 
-pub fn run(args: &RenderArgs) -> Result<ExitCode> {
-    let start = Instant::now();
-    let bar = Bar::new(args.quiet)?;
-    let job = Job::new(args)?;
-    if args.watch {
+fn start(job: Job<'_>) -> Result<ExitCode> {
+    let bar = Bar::new(job.args.quiet)?;
+    if job.args.watch {
         return watch::run(&job, &bar);
     }
     let (kept, progress) = (&mut Kept::default(), Show { progress: &bar, bar: &bar, is_preview: false });
-    job.render(job.stage()?, kept, &progress, start).map(|()| ExitCode::SUCCESS)
+    job.render(job.stage()?, kept, &progress, job.begun).map(|()| ExitCode::SUCCESS)
 }
 
 /// The options of a render, checked.
 pub(super) struct Job<'a> {
     pub args: &'a RenderArgs,
+    /// The same as they were typed, for the record.
+    matches: &'a ArgMatches,
+    replay: Option<&'a Replay<'a>>,
+    /// The scene's file.
+    pub path: &'a Path,
     pub outputs: Outputs,
     on: Vec<On>,
+    begun: Instant,
 }
 
 /// A scene as the options change it, with what is asked of it.
 pub(super) struct Stage {
     pub scene: Scene,
+    /// What pictures record of the scene's file.
+    file: SceneFile,
     wanted: Wanted,
     /// Settings that were chosen implicitly, and what the scene has no use for.
     chosen: Option<&'static str>,
@@ -127,13 +78,17 @@ pub(super) struct Show<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn new(args: &'a RenderArgs) -> Result<Job<'a>> {
+    fn new(args: &'a RenderArgs, matches: &'a ArgMatches, replay: Option<&'a Replay<'a>>) -> Result<Job<'a>> {
+        let begun = Instant::now();
         let mut on = args.device.iter().map(|text| On::parse(text)).collect::<Result<Vec<On>>>()?;
         if on.is_empty() {
             on.push(On::Device(DeviceSelect::Default));
         }
-        let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
-        Ok(Job { args, outputs, on })
+        // Either of them is there, as the parser sees to.
+        let path = args.scene.as_deref().or(replay.map(Replay::scene_path)).unwrap_or(Path::new("-"));
+        let default = replay.map_or_else(|| default_name(path), Replay::output);
+        let outputs = Outputs::new(default, &args.output, args.format, args.json)?;
+        Ok(Job { args, matches, replay, path, outputs, on, begun })
     }
 
     /// Returns true unless layers are written alone.
@@ -149,22 +104,29 @@ impl<'a> Job<'a> {
     /// Reads the scene and checks what is asked of it.
     pub fn stage(&self) -> Result<Stage> {
         let args = self.args;
-        let mut scene = args.overrides.load(&args.scene, args.layers.numbers_meshes())?;
+        let reading = args.overrides.reading(args.layers.numbers_meshes());
+        let (mut scene, file) = match self.replay {
+            Some(replay) => replay.load(&reading)?,
+            None => scene::load_recorded(self.path, &reading)?,
+        };
         let chosen = args.overrides.apply(&mut scene)?;
         args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
         for path in &self.outputs.files {
             output::check_writable(path)?;
             check_inputs_kept(path, &scene)?;
+            args.from
+                .iter()
+                .try_for_each(|from| super::check_input_kept(path, from, "the picture of --from"))?;
         }
         let wanted = Wanted::new(&args.layers, &self.outputs, &scene)?;
         let dropped = prune(&mut scene);
-        Ok(Stage { scene, wanted, chosen, dropped })
+        Ok(Stage { scene, file, wanted, chosen, dropped })
     }
 
     /// Renders and writes all outputs. `start`: when the work on this picture began.
     pub fn render(&self, stage: Stage, kept: &mut Kept, show: &Show<'_>, start: Instant) -> Result<()> {
         let (args, on, outputs) = (self.args, &self.on[..], &self.outputs);
-        let Stage { scene, wanted, chosen, dropped } = stage;
+        let Stage { scene, file, wanted, chosen, dropped } = stage;
         let is_told = args.verbose && !show.is_preview;
         if let (Some(chosen), true) = (chosen, is_told) {
             super::notify(chosen);
@@ -172,8 +134,7 @@ impl<'a> Job<'a> {
         let options = self.options(&wanted, show.is_preview);
         let placement =
             args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
-        let png_bits = if args.png_bits == "16" { 16 } else { 8 };
-        let write = WriteOptions { png_bits, placement, ..WriteOptions::default() };
+        let write = WriteOptions { placement, ..args.display.write_options() };
         if !wanted.has_beauty {
             let layers = wanted.render(&scene, &options, on, None, show.progress)?;
             show.bar.finish();
@@ -199,13 +160,18 @@ impl<'a> Job<'a> {
         show.bar.finish();
 
         let clock = Instant::now();
+        let settings = args.overrides.report(&scene, args.crop, args.keep_everything);
+        let record = (!args.no_metadata).then(|| {
+            let options = replay::recorded_options(self.matches);
+            Record::new(&self.path.to_string_lossy(), file, options, &ran.device, settings.clone()).text()
+        });
+        let write = WriteOptions { record: record.as_deref(), ..write };
         wanted.write(outputs, &ran.film, &layers, &scene, &write)?;
         ran.report.seconds.write = clock.elapsed().as_secs_f64();
         ran.report.seconds.total = start.elapsed().as_secs_f64();
         let outputs = [outputs.names(), wanted.names()].concat();
         if args.json {
-            let options = args.overrides.report(&scene, args.crop, args.keep_everything);
-            let report = report::json(&ran, &scene, options, &outputs, args.allow_nonfinite);
+            let report = report::json(&ran, &scene, settings, &outputs, args.allow_nonfinite);
             super::print(&format!("{report:#}"))?;
         }
         if !args.quiet {
@@ -240,6 +206,8 @@ impl<'a> Job<'a> {
             warnings.push(format!("{fault}; --method shader reads the right ones"));
         }
         warnings.splice(..0, advice::of_scene(scene));
+        warnings.extend(self.args.display.without_effect(&self.outputs));
+        warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
         let counts_follow_neighbours =
             matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
         if self.args.crop.is_some() && counts_follow_neighbours {
@@ -259,16 +227,6 @@ pub(super) fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
         let what = format!("the file of texture \"{}\"", t.name);
         t.content.files().into_iter().try_for_each(|file| super::check_input_kept(output, file, &what))
     })
-}
-
-pub(super) fn parse_part(text: &str) -> Result<Rect, String> {
-    let numbers: Vec<u32> = text.split(',').map_while(|n| n.trim().parse().ok()).collect();
-    match numbers[..] {
-        [x, y, width, height] if text.split(',').count() == 4 && width > 0 && height > 0 => {
-            Ok(Rect { x, y, width, height })
-        }
-        _ => Err("expected X,Y,W,H in whole pixels, with W and H at least 1".into()),
-    }
 }
 
 /// Returns lines on how each texture is stored, and which were rotated.

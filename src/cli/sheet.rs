@@ -6,7 +6,8 @@ use std::process::ExitCode;
 
 use super::overrides::Overrides;
 use super::progress::Bar;
-use super::render::{check_inputs_kept, parse_part};
+use super::render::check_inputs_kept;
+use super::render_args::parse_part;
 use super::vary::{self, Combination, Vary};
 use super::{DEVICE, MEASURING, OUTPUT};
 use crate::core::counted::counted;
@@ -268,12 +269,13 @@ fn command(args: &SheetArgs, combination: &Combination) -> String {
 fn write(outputs: &[Output], content: &Content) -> Result<()> {
     let page = outputs.iter().any(|output| output.is_page).then(|| sheet::html(content)).transpose()?;
     let film = outputs.iter().any(|output| !output.is_page).then(|| sheet::compose(content));
+    let options = &WriteOptions::default();
     let pictures: Vec<Named<'_>> = outputs
         .iter()
         .filter(|output| !output.is_page)
-        .filter_map(|output| Some(Named { film: film.as_ref()?, path: &output.path }))
+        .filter_map(|output| Some(Named { film: film.as_ref()?, path: &output.path, options }))
         .collect();
-    output::write_pictures(&pictures, &WriteOptions::default(), || {
+    output::write_pictures(&pictures, || {
         let pages = outputs.iter().filter(|output| output.is_page);
         pages
             .zip(page.iter().cycle())

@@ -28,11 +28,11 @@ const SOON: f64 = 0.2;
 
 /// Renders until Ctrl-C.
 pub(super) fn run(job: &Job<'_>, bar: &Bar) -> Result<ExitCode> {
-    let scene = &job.args.scene;
+    let scene = job.path;
     check(job, scene)?;
     let mut kept = Kept::with_textures();
     let mut files = Files::default();
-    files.add(scene.clone());
+    files.add(scene.to_owned());
     let mut last_whole = f64::INFINITY;
     let mut is_told = job.args.quiet;
     while !bar.cancelled() {

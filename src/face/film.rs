@@ -2,16 +2,24 @@
 
 use std::path::Path;
 
+use super::save::SaveOptions;
 use crate::core::error::{ErrorKind, Result};
 use crate::core::film::Film;
 use crate::lab::metrics::{self, Comparison};
-use crate::output::{self, WriteOptions};
+use crate::output;
 
 impl Film {
     /// Writes the picture. The ending of the name selects the format: `.exr` and `.hdr` hold linear values, `.png`,
     /// `.jpg` and `.tif` are clipped and sRGB-encoded. The file appears complete or not at all.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        output::write(self, path.as_ref(), &WriteOptions::default()).map_err(|e| e.or_kind(ErrorKind::File))
+        self.save_with(path, &SaveOptions::new())
+    }
+
+    /// Writes the picture as [`save`](Film::save) does, with these settings.
+    pub fn save_with(&self, path: impl AsRef<Path>, options: &SaveOptions) -> Result<()> {
+        let options = options.write_options();
+        options.check()?;
+        output::write(self, path.as_ref(), &options).map_err(|e| e.or_kind(ErrorKind::File))
     }
 
     /// Reads a picture file.

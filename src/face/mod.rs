@@ -3,6 +3,8 @@
 mod film;
 mod options;
 mod renderer;
+mod save;
 
 pub use options::RenderOptions;
 pub use renderer::{RenderReport, Renderer};
+pub use save::SaveOptions;

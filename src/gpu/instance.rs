@@ -9,6 +9,8 @@ use super::result::{INSTALL, WithOperation, failed};
 use crate::core::error::{Error, ErrorKind, Result};
 
 pub(super) const API_VERSION: u32 = vk::API_VERSION_1_2;
+/// The same in words.
+pub const API_VERSION_TEXT: &str = "1.2";
 
 /// Returns every Vulkan device of this machine in the loader's order, including unsuitable ones.
 pub fn list_devices() -> Result<Vec<DeviceInfo>> {

@@ -43,7 +43,7 @@ pub use driver_cache::prepare as prepare_driver_cache;
 pub use host_memory::{give_back as give_back_host_memory, prepare as prepare_host_memory};
 pub use image::{Image, ImageDesc, ImageFormat, ImageShape, Swizzle};
 pub use info::{DeviceInfo, DeviceKind, DeviceLimits};
-pub use instance::list_devices;
+pub use instance::{API_VERSION_TEXT, list_devices};
 pub use pipeline::{Pipeline, PipelineDesc};
 pub use sampler::Sampler;
 pub use select::DeviceSelect;

@@ -1,5 +1,5 @@
-//! Encodes a film as the bytes of one file format. EXR and HDR keep linear light; PNG, JPEG and
-//! TIFF get values clipped to [0, 1] and sRGB-encoded, with neither dithering nor a tone map.
+//! Encodes a film as the bytes of one file format. EXR and HDR keep linear light; PNG, JPEG and TIFF get values that the
+//! display transform makes of it, clipped to [0, 1] and sRGB-encoded, without dithering.
 
 use super::sink::Sink;
 use super::{WriteOptions, exr, hdr, jpeg, png, tiff};
@@ -21,9 +21,9 @@ named_enum! {
 pub fn encode(film: &Film, format: Format, options: &WriteOptions, to: &mut dyn Sink) -> Result<(), String> {
     match format {
         Format::Exr => exr::write(film, options, to),
-        Format::Hdr => hdr::write(film, to).map_err(|e| e.to_string()),
-        Format::Png => png::write(film, options.png_bits, to).map_err(|e| e.to_string()),
-        Format::Jpeg => jpeg::write(film, to),
-        Format::Tiff => tiff::write(film, to),
+        Format::Hdr => hdr::write(film, options.record, to).map_err(|e| e.to_string()),
+        Format::Png => png::write(film, options, to).map_err(|e| e.to_string()),
+        Format::Jpeg => jpeg::write(film, options, to),
+        Format::Tiff => tiff::write(film, options, to),
     }
 }

@@ -4,13 +4,14 @@
 use std::io;
 use std::ops::Range;
 
-use exr::meta::attribute::{ChannelDescription, SampleType};
+use exr::meta::attribute::{AttributeValue, ChannelDescription, SampleType};
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use exr::meta::{BlockDescription, MetaData, magic_number};
 use exr::prelude::{Compression, IntegerBounds, LineOrder, Text, Vec2};
 
 use super::WriteOptions;
 use super::bands::{BAND_BYTES, write_bands};
+use super::record::{KEY, SOFTWARE};
 use super::sink::{Sink, write_at};
 use crate::core::film::{Film, Placement};
 
@@ -59,7 +60,7 @@ pub(super) fn write(film: &Film, options: &WriteOptions, to: &mut dyn Sink) -> R
 
     let mut head = Vec::new();
     let names = channels.iter().map(|(name, _)| name.as_str());
-    write_head(film, options.placement, names, &mut head).map_err(|e| e.to_string())?;
+    write_head(film, options, names, &mut head).map_err(|e| e.to_string())?;
     let row_bytes = film.width as usize * channels.len() * size_of::<f32>();
     let top = options.placement.map_or(0, |placement| placement.corner[1]);
     write_rows(film, top, row_bytes, &channels, head, to).map_err(|e| e.to_string())
@@ -68,15 +69,19 @@ pub(super) fn write(film: &Film, options: &WriteOptions, to: &mut dyn Sink) -> R
 /// Writes everything before the offsets of the rows.
 fn write_head<'a>(
     film: &Film,
-    placement: Option<Placement>,
+    options: &WriteOptions,
     channels: impl Iterator<Item = &'a str>,
     head: &mut Vec<u8>,
 ) -> exr::error::UnitResult {
-    let placement = placement.unwrap_or(Placement::whole(film.width, film.height));
+    let placement = options.placement.unwrap_or(Placement::whole(film.width, film.height));
     let [x, y] = placement.corner.map(|at| at as i32);
     let [width, height] = placement.full.map(|size| size as usize);
     let channels = channels.map(|name| ChannelDescription::named(name, SampleType::F32)).collect();
-    let own = LayerAttributes { layer_position: Vec2(x, y), ..LayerAttributes::default() };
+    let mut own = LayerAttributes { layer_position: Vec2(x, y), ..LayerAttributes::default() };
+    if let Some(record) = options.record {
+        own.software_name = Some(SOFTWARE.into());
+        own.other.insert(KEY.into(), AttributeValue::Text(record.into()));
+    }
     let shared = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(width, height)));
     let header = Header::new(Text::default(), (film.width as usize, film.height as usize), channels)
         .with_encoding(Compression::Uncompressed, BlockDescription::ScanLines, LineOrder::Increasing)

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use super::bands::write_bands;
 use super::quantise::rgbe;
+use super::record;
 use crate::core::film::Film;
 
 /// The widths whose scan lines may have runs.
@@ -21,9 +22,14 @@ struct Band {
     plane: Vec<u8>,
 }
 
-pub(super) fn write(film: &Film, to: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write(film: &Film, text: Option<&str>, to: &mut dyn Write) -> io::Result<()> {
     let (width, height) = (film.width as usize, film.height as usize);
-    write!(to, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n")?;
+    to.write_all(b"#?RADIANCE\n")?;
+    if let Some(text) = text {
+        writeln!(to, "SOFTWARE={}", record::SOFTWARE)?;
+        to.write_all(&record::hdr::lines(text))?;
+    }
+    write!(to, "FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n")?;
     let encode = |rows: Range<usize>, band: &mut Band| {
         band.lines.clear();
         rows.for_each(|row| band.append_line(&film.pixels[row * width..][..width]));

@@ -4,16 +4,21 @@ use std::io::Write;
 
 use jpeg_encoder::{Encoder, ImageBuffer, JpegColorType, rgb_to_ycbcr};
 
+use super::display::Prepared;
 use super::quantise::srgb8;
+use super::record::jpeg::{Insert, segments};
+use super::{WriteOptions, icc};
 use crate::core::film::Film;
 
-const QUALITY: u8 = 95;
+/// The first bytes that the encoder writes: the start of the image, and the segment of JFIF.
+const HEADER_BYTES: usize = 20;
 
 /// A film, the one kind of picture for which the encoder is compiled.
 struct Rgb<'a> {
     width: u16,
     height: u16,
     pixels: &'a [[f32; 3]],
+    display: Prepared,
 }
 
 impl ImageBuffer for Rgb<'_> {
@@ -32,7 +37,7 @@ impl ImageBuffer for Rgb<'_> {
     fn fill_buffers(&self, y: u16, buffers: &mut [Vec<u8>; 4]) {
         let [lumas, blues, reds, _] = buffers;
         let width = usize::from(self.width);
-        for pixel in &self.pixels[usize::from(y) * width..][..width] {
+        for pixel in &*self.display.colors(&self.pixels[usize::from(y) * width..][..width]) {
             let [r, g, b] = pixel.map(srgb8);
             let (luma, blue, red) = rgb_to_ycbcr(r, g, b);
             lumas.push(luma);
@@ -42,11 +47,17 @@ impl ImageBuffer for Rgb<'_> {
     }
 }
 
-pub(super) fn write(film: &Film, to: &mut dyn Write) -> Result<(), String> {
+pub(super) fn write(film: &Film, options: &WriteOptions, to: &mut dyn Write) -> Result<(), String> {
     let (Ok(width), Ok(height)) = (u16::try_from(film.width), u16::try_from(film.height)) else {
         return Err(format!("JPEG has at most {} pixels a side", u16::MAX));
     };
-    Encoder::new(to, QUALITY)
-        .encode_image(Rgb { width, height, pixels: &film.pixels })
+    let comments = options.record.map_or(Vec::new(), segments);
+    let mut encoder = Encoder::new(Insert::new(to, HEADER_BYTES, comments), options.jpeg_quality);
+    encoder
+        .add_icc_profile(&icc::profile(options.display.gamut))
+        .and_then(|()| {
+            let display = options.display.prepare();
+            encoder.encode_image(Rgb { width, height, pixels: &film.pixels, display })
+        })
         .map_err(|e| e.to_string())
 }

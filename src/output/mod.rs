@@ -2,18 +2,25 @@
 //! complete or not at all: it is written beside its final path and renamed. Folders are created by
 //! `prepare_folder` only.
 
+mod adaptation;
 mod bands;
+mod display;
 mod encode;
 mod exr;
 mod folder;
+mod gamut;
 mod hdr;
+mod icc;
 mod jpeg;
 mod png;
+mod png_color;
 mod png_filter;
 mod quantise;
+pub mod record;
 mod sink;
 mod target;
 mod tiff;
+mod tone_map;
 
 use std::path::Path;
 
@@ -21,9 +28,13 @@ use crate::core::error::{Error, Result};
 use crate::core::film::{Film, Placement};
 use crate::core::layer::Layer;
 use crate::core::panics;
+pub use adaptation::{KELVINS, white_of};
+pub use display::{DisplayTransform, STOPS};
 pub use encode::Format;
 pub use folder::prepare_folder;
+pub use gamut::Gamut;
 use target::Target;
+pub use tone_map::ToneMap;
 
 /// Every extension that names a format.
 pub const ENDINGS: [(&str, Format); 7] = [
@@ -49,6 +60,12 @@ pub const ENDING_NAMES: [&str; 7] = {
 pub struct WriteOptions<'a> {
     /// Bits per channel of PNG files: 8 or 16.
     pub png_bits: u8,
+    /// The quality of JPEG files: 1 to 100.
+    pub jpeg_quality: u8,
+    /// What becomes of colours in formats for screens: PNG, JPEG and TIFF.
+    pub display: DisplayTransform,
+    /// How the picture was made: ASCII on one line, which every format carries.
+    pub record: Option<&'a str>,
     /// The film's placement in a larger picture, for formats that can store it (EXR).
     pub placement: Option<Placement>,
     /// More properties of the pixels, for formats that can store them (EXR).
@@ -59,7 +76,32 @@ pub struct WriteOptions<'a> {
 
 impl Default for WriteOptions<'_> {
     fn default() -> Self {
-        WriteOptions { png_bits: 8, placement: None, layers: &[], has_colors: true }
+        WriteOptions {
+            png_bits: 8,
+            jpeg_quality: 95,
+            display: DisplayTransform::default(),
+            record: None,
+            placement: None,
+            layers: &[],
+            has_colors: true,
+        }
+    }
+}
+
+impl WriteOptions<'_> {
+    /// Returns an error that names the first value out of its range.
+    pub fn check(&self) -> Result<()> {
+        if !matches!(self.png_bits, 8 | 16) {
+            return Err(Error::with_help(
+                format!("PNG with {} bits per channel cannot be written", self.png_bits),
+                "use 8 or 16",
+            ));
+        }
+        if !(1..=100).contains(&self.jpeg_quality) {
+            let what = format!("JPEG of quality {} cannot be written", self.jpeg_quality);
+            return Err(Error::with_help(what, "use 1 (smallest files) to 100 (best)"));
+        }
+        self.display.check()
     }
 }
 
@@ -82,26 +124,24 @@ pub fn write_all_after(
     options: &WriteOptions,
     first: impl FnOnce() -> Result<()>,
 ) -> Result<()> {
-    let pictures: Vec<Named<'_>> = paths.iter().map(|path| Named { film, path: path.as_ref() }).collect();
-    write_pictures(&pictures, options, first)
+    let pictures: Vec<Named<'_>> =
+        paths.iter().map(|path| Named { film, path: path.as_ref(), options }).collect();
+    write_pictures(&pictures, first)
 }
 
-/// A picture and its file.
+/// A picture, its file, and how it is written.
 #[derive(Clone, Copy, Debug)]
 pub struct Named<'a> {
     pub film: &'a Film,
     pub path: &'a Path,
+    pub options: &'a WriteOptions<'a>,
 }
 
 /// Writes different pictures as [`write_all_after`] writes one.
-pub fn write_pictures(
-    pictures: &[Named<'_>],
-    options: &WriteOptions,
-    first: impl FnOnce() -> Result<()>,
-) -> Result<()> {
+pub fn write_pictures(pictures: &[Named<'_>], first: impl FnOnce() -> Result<()>) -> Result<()> {
     let prepared = pictures
         .iter()
-        .map(|Named { film, path }| prepare(film, path, options))
+        .map(|Named { film, path, options }| prepare(film, path, options))
         .collect::<Result<Vec<_>>>()?;
     first()?;
     prepared.into_iter().try_for_each(Target::finish)
@@ -110,12 +150,7 @@ pub fn write_pictures(
 /// Writes the whole file under its temporary name.
 fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
     let format = format_of(path)?;
-    if !matches!(options.png_bits, 8 | 16) {
-        return Err(Error::with_help(
-            format!("PNG with {} bits per channel cannot be written", options.png_bits),
-            "use 8 or 16",
-        ));
-    }
+    options.check()?;
     let mut target = Target::create(path)?;
     let failed = |e| {
         Error::with_help(

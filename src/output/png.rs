@@ -11,8 +11,11 @@ use rayon::prelude::*;
 use simd_adler32::Adler32;
 
 use super::bands::write_bands;
+use super::display::Prepared;
 use super::png_filter::Filters;
 use super::quantise::{srgb8, srgb16};
+use super::record::{KEY, SOFTWARE};
+use super::{WriteOptions, png_color};
 use crate::core::film::Film;
 
 /// Larger pictures are encoded in bands: twice the work of the crate's fast encoder, but shared by all threads.
@@ -22,22 +25,37 @@ const PIXELS_AT_ONCE: usize = 1 << 14;
 /// The first bytes of a stream of zlib: deflate with a window of 32 KiB, at the fastest level.
 const ZLIB_HEAD: [u8; 2] = [0x78, 0x01];
 
-pub(super) fn write(film: &Film, bits: u8, to: &mut dyn Write) -> Result<(), EncodingError> {
+/// How the integers of a picture are made.
+struct Samples {
+    display: Prepared,
+    /// Bits of an integer: 8 or 16.
+    bits: u8,
+}
+
+pub(super) fn write(film: &Film, options: &WriteOptions, to: &mut dyn Write) -> Result<(), EncodingError> {
+    let samples = Samples { display: options.display.prepare(), bits: options.png_bits };
+    let bits = samples.bits;
     let mut encoder = png::Encoder::new(to, film.width, film.height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(if bits == 16 { png::BitDepth::Sixteen } else { png::BitDepth::Eight });
     // Fast deflate takes half the time of the default level at 512² for a few per cent of size.
     encoder.set_compression(png::Compression::Fast);
     encoder.set_filter(png::Filter::Adaptive);
+    png_color::describe(options.display.gamut, &mut encoder);
+    if let Some(record) = options.record {
+        encoder.add_text_chunk("Software".into(), SOFTWARE.into())?;
+        encoder.add_text_chunk(KEY.into(), record.into())?;
+    }
     let mut writer = encoder.write_header()?;
+    png_color::write_chunks(options.display.gamut, &mut writer)?;
     if film.pixels.len() <= MOST_AT_ONCE {
         let mut rows = vec![0; film.pixels.len() * pixel_bytes(bits)];
         rows.par_chunks_mut(PIXELS_AT_ONCE * pixel_bytes(bits))
             .zip(film.pixels.par_chunks(PIXELS_AT_ONCE))
-            .for_each(|(rows, pixels)| quantise(pixels, bits, rows));
+            .for_each(|(rows, pixels)| samples.quantise(pixels, rows));
         writer.write_image_data(&rows)?;
     } else {
-        write_large(film, bits, &mut writer)?;
+        write_large(film, &samples, &mut writer)?;
     }
     writer.finish()
 }
@@ -46,13 +64,18 @@ fn pixel_bytes(bits: u8) -> usize {
     3 * usize::from(bits) / 8
 }
 
-/// Writes the integers of some pixels, big-endian as PNG stores them.
-fn quantise(pixels: &[[f32; 3]], bits: u8, to: &mut [u8]) {
-    let values = pixels.as_flattened().iter();
-    if bits == 16 {
-        to.chunks_exact_mut(2).zip(values).for_each(|(to, v)| to.copy_from_slice(&srgb16(*v).to_be_bytes()));
-    } else {
-        to.iter_mut().zip(values).for_each(|(to, v)| *to = srgb8(*v));
+impl Samples {
+    /// Writes the integers of some pixels, big-endian as PNG stores them.
+    fn quantise(&self, pixels: &[[f32; 3]], to: &mut [u8]) {
+        let colors = self.display.colors(pixels);
+        let values = colors.as_flattened().iter();
+        if self.bits == 16 {
+            to.chunks_exact_mut(2)
+                .zip(values)
+                .for_each(|(to, v)| to.copy_from_slice(&srgb16(*v).to_be_bytes()));
+        } else {
+            to.iter_mut().zip(values).for_each(|(to, v)| *to = srgb8(*v));
+        }
     }
 }
 
@@ -74,21 +97,21 @@ impl Band {
 
     /// Quantises, filters and compresses some rows. The compressed bytes end at a whole byte, so that those of other
     /// bands can follow.
-    fn encode(&mut self, film: &Film, bits: u8, rows: Range<usize>) {
+    fn encode(&mut self, film: &Film, samples: &Samples, rows: Range<usize>) {
         let width = film.width as usize;
-        let row_bytes = width * pixel_bytes(bits);
+        let row_bytes = width * pixel_bytes(samples.bits);
         self.rows.resize(row_bytes * (rows.len() + 1), 0);
         let (above, own) = self.rows.split_at_mut(row_bytes);
         match rows.start.checked_sub(1) {
-            Some(row) => quantise(&film.pixels[row * width..][..width], bits, above),
+            Some(row) => samples.quantise(&film.pixels[row * width..][..width], above),
             None => above.fill(0),
         }
-        quantise(&film.pixels[rows.start * width..rows.end * width], bits, own);
+        samples.quantise(&film.pixels[rows.start * width..rows.end * width], own);
         self.filtered.clear();
         for (above, row) in
             self.rows.chunks_exact(row_bytes).zip(self.rows[row_bytes..].chunks_exact(row_bytes))
         {
-            self.filters.append_best(above, row, pixel_bytes(bits), &mut self.filtered);
+            self.filters.append_best(above, row, pixel_bytes(samples.bits), &mut self.filtered);
         }
         let last = rows.end == film.height as usize;
         let flush = if last { FlushCompress::Finish } else { FlushCompress::Sync };
@@ -110,15 +133,19 @@ impl Band {
 }
 
 /// Writes the pixels as one chunk a band; the first one begins with the head of the stream, one more ends it.
-fn write_large<W: Write>(film: &Film, bits: u8, writer: &mut png::Writer<W>) -> Result<(), EncodingError> {
-    let row_bytes = film.width as usize * pixel_bytes(bits);
+fn write_large<W: Write>(
+    film: &Film,
+    samples: &Samples,
+    writer: &mut png::Writer<W>,
+) -> Result<(), EncodingError> {
+    let row_bytes = film.width as usize * pixel_bytes(samples.bits);
     let mut checksum = Adler32::new();
     writer.write_chunk(IDAT, &ZLIB_HEAD)?;
     write_bands(
         film.height as usize,
         row_bytes,
         Band::new,
-        |rows, band| band.encode(film, bits, rows),
+        |rows, band| band.encode(film, samples, rows),
         |band| {
             if band.deflate.total_in() != band.filtered.len() as u64 {
                 return Err(io::Error::other("some rows cannot be compressed").into());
@@ -158,13 +185,15 @@ mod tests {
             for bits in [8, 16] {
                 let film = film(width, height);
                 let mut file = Vec::new();
-                write(&film, bits, &mut file).unwrap();
+                let options = WriteOptions { png_bits: bits, ..WriteOptions::default() };
+                write(&film, &options, &mut file).unwrap();
                 let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
                 let mut read = vec![0; reader.output_buffer_size().unwrap()];
                 reader.next_frame(&mut read).unwrap();
                 reader.finish().unwrap();
                 let mut expected = vec![0; read.len()];
-                quantise(&film.pixels, bits, &mut expected);
+                let samples = Samples { display: options.display.prepare(), bits };
+                samples.quantise(&film.pixels, &mut expected);
                 assert!(read == expected, "{width}×{height}, {bits} bits");
             }
         }

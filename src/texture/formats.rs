@@ -149,6 +149,11 @@ pub fn is_picture(bytes: &[u8]) -> bool {
     PictureFormat::of_signature(bytes).is_some()
 }
 
+/// Returns the usual endings of names of all files of texels, those of volumes too.
+pub fn endings() -> impl Iterator<Item = &'static str> {
+    FORMATS.iter().flat_map(|format| format.endings).copied().chain(["nrrd", "nhdr"])
+}
+
 /// Returns true if files with names like this one may hold cubes, volumes and mip levels; nothing is opened.
 pub fn is_container_name(path: &Path) -> bool {
     let Some(ending) = path.extension().and_then(|ending| ending.to_str()) else { return false };

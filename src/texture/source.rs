@@ -185,7 +185,8 @@ impl TextureContent {
         TileSet::of_name(&path).map_or(TextureContent::File(path), TextureContent::Tiles)
     }
 
-    fn files_mut(&mut self) -> Vec<&mut PathBuf> {
+    /// Returns all files named in the scene, to change them.
+    pub fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         match self {
             TextureContent::Ramp(_)
             | TextureContent::Embedded(..)

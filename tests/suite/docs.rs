@@ -8,6 +8,7 @@ mod commands;
 mod formulas;
 mod links;
 mod probe;
+mod recipes;
 mod scene_format;
 mod synonyms;
 mod table;

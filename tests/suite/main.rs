@@ -25,6 +25,7 @@ mod device_shaders;
 mod diagnostics;
 mod dimensions;
 mod discs;
+mod display;
 #[cfg(unix)]
 mod docs;
 mod doors;
@@ -69,9 +70,12 @@ mod procedural;
 mod programs;
 mod random_scenes;
 mod rays;
+mod replay;
 mod resubmit;
 mod scene;
 mod sheet;
+#[cfg(unix)]
+mod shell;
 mod slopes;
 mod sources;
 mod specialise;

@@ -13,8 +13,18 @@ use crate::layering::{files_under, source_root};
 use crate::support::{data, untested};
 
 /// The programs that the sources may start: the program under test, the tests themselves, `setup.sh` by the shell for
-/// which it is written, and programs without which a test is skipped.
-const STARTED: &[&str] = &["program()", "current_exe()", "\"bash\"", "\"chromium\"", "\"spirv-val\""];
+/// which it is written, programs without which a test is skipped, and those without which a build calls its commit or
+/// compiler unknown.
+const STARTED: &[&str] = &[
+    "program()",
+    "current_exe()",
+    "\"bash\"",
+    "\"chromium\"",
+    "\"spirv-val\"",
+    "\"groff\"",
+    "\"git\"",
+    "rustc",
+];
 /// The essential programs of Debian that `setup.sh` uses.
 const ESSENTIAL: &[&str] = &[
     "bash", "cut", "dirname", "env", "find", "grep", "head", "id", "mkdir", "mktemp", "mv", "rm", "sort",

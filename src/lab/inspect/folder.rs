@@ -95,11 +95,13 @@ pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection, view: &[Stri
     files.extend(inspection.layers.iter().map(|own| file_of(own.aov)));
     let paths: Vec<_> = files.iter().map(|file| folder.join(file)).collect();
     let films = [film, film].into_iter().chain(&films);
-    let pictures: Vec<Named<'_>> = films.zip(&paths).map(|(film, path)| Named { film, path }).collect();
     let layers: Vec<Layer> = inspection.layers.iter().map(|own| own.layer.clone()).collect();
     let placement = Some(Placement::whole(film.width, film.height));
     let options = WriteOptions { layers: &layers, placement, ..WriteOptions::default() };
-    output::write_pictures(&pictures, &options, || Ok(()))?;
+    let pairs = films.zip(&paths);
+    let pictures: Vec<Named<'_>> =
+        pairs.map(|(film, path)| Named { film, path, options: &options }).collect();
+    output::write_pictures(&pictures, || Ok(()))?;
     output::write_file(&folder.join(PAGE), page::html(scene, inspection, view, &legends).as_bytes())?;
     files.push(PAGE.into());
     Ok(files)

@@ -8,6 +8,7 @@ mod mesh_file;
 mod mesh_materials;
 mod mesh_scene;
 mod mtl;
+mod scene_file;
 mod toml;
 
 use std::io::{ErrorKind as Io, Read};
@@ -23,7 +24,8 @@ use crate::mesh::Fault;
 use crate::texture::open_file::odd_path;
 pub use mesh_file::is_mesh as is_model;
 pub use mesh_scene::model_view;
-pub use toml::parse;
+pub use scene_file::SceneFile;
+pub use toml::{parse, parse_as};
 
 /// A format of scene files.
 struct Format {
@@ -51,6 +53,11 @@ pub struct Reading<'a> {
 /// files with other endings.
 const FORMATS: [Format; 1] = [toml::FORMAT];
 
+/// Returns the endings of models, which are scenes, too, as a list in words.
+pub fn model_endings() -> String {
+    mesh_file::endings()
+}
+
 /// The kind of a scene's file, for messages.
 const SCENE: &str = "scene";
 
@@ -76,6 +83,22 @@ pub fn load_seen_by(path: &Path, camera: Option<&str>) -> Result<Scene> {
 
 /// Reads a scene as [`load`] does, in the stated way.
 pub fn load_as(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
+    load_told(path, reading, |_| ()).map(|(scene, _)| scene)
+}
+
+/// Reads a scene as [`load_as`] does, and returns what pictures record of its file.
+pub fn load_recorded(path: &Path, reading: &Reading<'_>) -> Result<(Scene, SceneFile)> {
+    let (scene, file) = load_told(path, reading, SceneFile::of_bytes)?;
+    let bytes = || path.metadata().map_or(0, |known| known.len());
+    Ok((scene, file.unwrap_or_else(|| SceneFile::of_model(bytes()))))
+}
+
+/// Reads a scene, and returns what `tell` makes of the bytes of its file, unless it is a model.
+fn load_told<T>(
+    path: &Path,
+    reading: &Reading<'_>,
+    tell: impl FnOnce(&[u8]) -> T,
+) -> Result<(Scene, Option<T>)> {
     let camera = reading.camera;
     let is_stdin = is_standard_input(path);
     let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };
@@ -86,17 +109,18 @@ pub fn load_as(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
             let path = Path::new(STANDARD_INPUT);
             let bytes = bytes_of(std::io::stdin().lock(), 0, SCENE, path, format.max_bytes)?;
             foreign::check_beginning(path, &bytes)?;
-            return (format.read)(path, bytes, reading);
+            let told = tell(&bytes);
+            return Ok(((format.read)(path, bytes, reading)?, Some(told)));
         }
         if let Some(built_in) = BuiltIn::named(path)? {
             no_camera(&stage, camera)?;
             let [format, ..] = &FORMATS;
             let mut scene = (format.read)(&built_in.path(), built_in.text().into(), reading)?;
             scene.path = path.to_owned();
-            return Ok(scene);
+            return Ok((scene, Some(tell(built_in.text().as_bytes()))));
         }
         if mesh_file::is_mesh(path) {
-            return mesh_scene::read(path, reading);
+            return Ok((mesh_scene::read(path, reading)?, None));
         }
         no_camera(&stage, camera)?;
         let format = format_of(path);
@@ -106,7 +130,8 @@ pub fn load_as(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
         if !is_named(path, format) {
             foreign::check_beginning(path, &bytes)?;
         }
-        (format.read)(path, bytes, reading)
+        let told = tell(&bytes);
+        Ok(((format.read)(path, bytes, reading)?, Some(told)))
     })
 }
 

@@ -29,7 +29,7 @@ fn entries(help: &str) -> Vec<String> {
     for line in help.lines().skip_while(|line| !line.starts_with("Usage:")).skip(1) {
         let text = line.trim_start();
         let indent = line.len() - text.len();
-        if indent > 0 && indent <= 6 && (text.starts_with('-') || text.starts_with('<')) {
+        if indent > 0 && indent <= 6 && text.starts_with(['-', '<', '[']) {
             found.push(text.to_string());
         } else if indent > 6
             && let Some(entry) = found.last_mut()
@@ -48,7 +48,8 @@ fn between<'t>(text: &'t str, before: &str) -> Option<&'t str> {
 /// Returns the cells of an entry: its spelling (`-o, --output OUT`), its values and its default.
 fn row(entry: &str) -> Vec<String> {
     let end = entry.find("  ").or(entry.find("> ").map(|i| i + 1)).unwrap_or(entry.len());
-    let spelling = entry[..end].replace(['<', '>'], "");
+    // An argument in brackets may be left out.
+    let spelling = entry[..end].replace(['<', '>', '[', ']'], "");
     let list = between(entry, "[possible values: ").unwrap_or("");
     let values = list.split(", ").filter(|v| !v.is_empty()).map(|v| format!("`{v}`"));
     let default = between(entry, "[default: ").unwrap_or("");

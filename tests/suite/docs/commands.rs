@@ -17,11 +17,11 @@ const BUILDS: &[&str] =
     &["./setup.sh", "cargo ", "MOIRE_DEVICE=gpu cargo ", "MOIRE_SETUP_DRY_RUN=1 ./setup.sh"];
 
 /// Adds the device under test where a line names none. Whether a command works does not depend on how much it does: a
-/// line that names neither a size nor a part of the full picture renders a small one, and one that verifies everything
-/// verifies all address modes of some formats and sizes.
+/// line that names neither a size, nor a part of the full picture, nor another picture renders a small one, and one that
+/// verifies everything verifies all address modes of some formats and sizes.
 const WRAPPER: &str = "#!/bin/sh
 case \" $* \" in
-*' --size '* | *' --crop '* | *' --only '*) ;;
+*' --size '* | *' --crop '* | *' --only '* | *' --from '*) ;;
 *)
     case \"$1\" in
     render | study | sheet) set -- \"$@\" --size 64x48 ;;

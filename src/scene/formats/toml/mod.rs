@@ -65,7 +65,8 @@ pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
     parse_as(path_for_messages, text, &Reading::default())
 }
 
-fn parse_as(path_for_messages: &Path, text: &str, reading: &Reading<'_>) -> Result<Scene> {
+/// Parses scene text as [`parse`] does, in the stated way.
+pub fn parse_as(path_for_messages: &Path, text: &str, reading: &Reading<'_>) -> Result<Scene> {
     let source = Source { path: path_for_messages, text, settings: reading.settings };
     let mut document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?.into_inner();
     let shapes: Vec<&str> = geometry::sections().map(|kind| kind.name).collect();

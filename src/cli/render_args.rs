@@ -1,0 +1,94 @@
+//! The arguments of `moire render`. In: the command line. Out: a scene or a picture to render again, the outputs, and all
+//! options.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::display::DisplayArgs;
+use super::layers::LayerArgs;
+use super::overrides::Overrides;
+use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
+use crate::core::range::Rect;
+use crate::output::{self, ENDING_NAMES, Format};
+use crate::render::{EstimateChoice, MipChoice, TexelChoice, Tuning};
+
+#[derive(Args, Debug)]
+pub struct RenderArgs {
+    /// Scene file or model (glTF, OBJ, PLY, STL), or - for standard input
+    #[arg(required_unless_present = "from")]
+    pub scene: Option<PathBuf>,
+    /// Render a picture again from the record that it carries, in place of a scene; other options override those of the
+    /// record
+    #[arg(long, value_name = "PICTURE", conflicts_with = "scene", help_heading = OUTPUT)]
+    pub from: Option<PathBuf>,
+    /// Picture to write; the ending selects the format: exr hdr (linear float), png jpg tif (sRGB). May be given
+    /// several times; - is standard output [default: the scene's name with .png, in the current folder]
+    #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
+    pub output: Vec<PathBuf>,
+    /// Format of what -o - writes
+    #[arg(long, value_name = "FORMAT", value_parser = super::named_parser(&ENDING_NAMES, output::format_named), help_heading = OUTPUT)]
+    pub format: Option<Format>,
+    #[command(flatten)]
+    pub layers: LayerArgs,
+    #[command(flatten)]
+    pub overrides: Overrides,
+    #[command(flatten)]
+    pub display: DisplayArgs,
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU).
+    /// May be given several times, also one device: strips of the picture are assigned to them in turn [default:
+    /// discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
+    pub device: Vec<String>,
+    /// Render only this part, in pixels of the full picture
+    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_part)]
+    pub crop: Option<Rect>,
+    /// Build the pipeline with all features, to measure the gain of leaving some out
+    #[arg(long, help_heading = MEASURING)]
+    pub keep_everything: bool,
+    /// Accept textures with NaN and infinite texels, which are otherwise errors; the pixels that show them are NaN or
+    /// infinite too, and counted
+    #[arg(long, help_heading = TEXTURES)]
+    pub allow_nonfinite: bool,
+    /// Where look-ups of method shader read texels
+    #[arg(long, value_name = "SOURCE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
+    pub texels: TexelChoice,
+    /// Where box mip chains of textures are generated, if their lengths are powers of two
+    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
+    pub mips: MipChoice,
+    /// Where errors are estimated and samples distributed with --target-error, --budget and adaptive sampling
+    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(EstimateChoice::NAMES, EstimateChoice::from_name))]
+    pub estimates: EstimateChoice,
+    /// Workgroup shape, for measurements [default: by device]
+    #[arg(long, value_name = "WxH", help_heading = MEASURING, value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
+    pub workgroup: Option<[u32; 2]>,
+    /// Count on the device how often limits are exceeded: coordinates that are NaN or infinite, levels, footprints,
+    /// depth; -v counts too
+    #[arg(long, help_heading = MEASURING)]
+    pub guards: bool,
+    /// Render again whenever the scene or one of its files changes, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["json", "from"], help_heading = OUTPUT)]
+    pub watch: bool,
+    /// Write no record of scene and options into pictures
+    #[arg(long, help_heading = OUTPUT)]
+    pub no_metadata: bool,
+    /// Print one JSON object on stdout
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
+    /// Print nothing but errors
+    #[arg(short, long, conflicts_with = "verbose", help_heading = OUTPUT)]
+    pub quiet: bool,
+    /// Print what was left out and how textures are stored
+    #[arg(short, long, help_heading = OUTPUT)]
+    pub verbose: bool,
+}
+
+pub(super) fn parse_part(text: &str) -> Result<Rect, String> {
+    let numbers: Vec<u32> = text.split(',').map_while(|n| n.trim().parse().ok()).collect();
+    match numbers[..] {
+        [x, y, width, height] if text.split(',').count() == 4 && width > 0 && height > 0 => {
+            Ok(Rect { x, y, width, height })
+        }
+        _ => Err("expected X,Y,W,H in whole pixels, with W and H at least 1".into()),
+    }
+}
