@@ -8,9 +8,11 @@ use std::{env, fs};
 /// Sets the variables. The commit is looked up again when sources have changed, as then the program is compiled anyway: a
 /// commit alone compiles nothing. So a program may name the commit before its own, with changes.
 pub fn set() {
-    // A file that is missing would let this run each time.
-    for input in ["src", "Cargo.lock"].iter().filter(|input| Path::new(input).exists()) {
-        println!("cargo:rerun-if-changed={input}");
+    // All but the program's own first file, which compiles in a moment; a file that is missing would let this run each time.
+    let sources = fs::read_dir("src").into_iter().flatten().flatten().map(|entry| entry.path());
+    let inputs = sources.chain(["Cargo.lock".into()]).filter(|input| input.exists());
+    for input in inputs.filter(|input| !input.ends_with("main.rs")) {
+        println!("cargo:rerun-if-changed={}", input.display());
     }
     let rustc = env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
     let known = |value: Option<String>| value.unwrap_or_else(|| "unknown".into());

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use moire::internal::cli::{
     self, compare, completions, devices, inspect, man, new, pattern, render, sheet, stability, study,
-    texture, verify, version,
+    texture, verify, version, view,
 };
 use moire::internal::core::error::Result;
 use moire::internal::core::panics;
@@ -25,6 +25,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     /// Write a scene of your pictures or model, or copy one of the program
     New(new::NewArgs),
+    /// Show a scene in a browser, refined while one looks, with two settings side by side
+    View(Box<view::ViewArgs>),
     /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
     /// Compare settings in one labelled picture or page
@@ -65,6 +67,7 @@ impl Command {
         match self {
             Command::Render(_) => "render",
             Command::New(_) => "new",
+            Command::View(_) => "view",
             Command::Study(_) => "study",
             Command::Sheet(_) => "sheet",
             Command::Inspect(_) => "inspect",
@@ -84,6 +87,7 @@ impl Command {
         match self {
             Command::Render(args) => render::run(&args, matches),
             Command::New(args) => new::run(&args),
+            Command::View(args) => view::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Sheet(args) => sheet::run(&args),
             Command::Inspect(args) => inspect::run(&args),

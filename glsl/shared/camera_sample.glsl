@@ -1,5 +1,5 @@
 // The path with which a sample begins: its place in the pixel, its time and its point of the lens in, the ray in the scene
-// and its differential out. Twin: src/oracle/backend.rs.
+// and its differential out. Twin: src/oracle/camera_sample.rs.
 #ifndef CAMERA_SAMPLE_GLSL
 #define CAMERA_SAMPLE_GLSL
 

@@ -27,6 +27,7 @@ mod typed;
 mod vary;
 pub mod verify;
 pub mod version;
+pub mod view;
 mod watch;
 
 use std::ffi::OsStr;

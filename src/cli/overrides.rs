@@ -104,6 +104,23 @@ impl Overrides {
         changes.apply(scene)
     }
 
+    /// Returns the camera, if one was named.
+    pub fn camera(&self) -> Option<String> {
+        self.camera.clone()
+    }
+
+    /// Returns what replaces values of the scene, as it was written.
+    pub fn settings(&self) -> Vec<String> {
+        self.set.iter().map(|setting| setting.text().to_owned()).collect()
+    }
+
+    /// Returns the other options that were given and change the scene, by name, with their values.
+    pub fn options(&self) -> impl Iterator<Item = (String, String)> {
+        const OTHERS: [&str; 4] = ["camera", "set", "budget", "target-error"];
+        let given = self.given().into_iter().filter(|(name, _)| !OTHERS.contains(name));
+        given.map(|(name, value)| (name.to_owned(), value))
+    }
+
     /// Returns the options that were given, with their values as words.
     pub fn given(&self) -> Vec<(&'static str, String)> {
         let word = |name: Option<&str>| name.map(str::to_owned);

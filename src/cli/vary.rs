@@ -9,7 +9,7 @@ use super::overrides::Overrides;
 use crate::core::error::{Error, Result};
 use crate::lab::sheet::plan::{Axis, MAX_AXES, MAX_CELLS};
 use crate::lab::study::label;
-use crate::scene::synonyms::meant;
+use crate::scene::suggestion;
 
 /// The options that can vary, as a command line of their own.
 #[derive(Parser, Debug)]
@@ -90,14 +90,7 @@ fn names() -> Vec<String> {
 
 fn unknown(name: &str) -> String {
     let names = names();
-    let nearest = names
-        .iter()
-        .map(|own| (strsim::jaro_winkler(name, own), own.as_str()))
-        .filter(|(score, _)| *score > 0.8)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, own)| own);
-    let near = meant(name, names.iter().map(String::as_str)).map(|(own, _)| own).or(nearest);
-    let near = near.map_or(String::new(), |own| format!("; did you mean {own}?"));
+    let near = suggestion(name, names.iter().map(String::as_str));
     format!(
         "\"{name}\" is no option that can vary: {}; and keys of the scene, such as sampler.NAME.address{near}",
         names.join(", ")
@@ -207,8 +200,8 @@ mod tests {
             Ok(("sampler.a_b.border_color".into(), 2))
         );
         let wrong = |text: &str| vary(text).unwrap_err();
-        assert!(wrong("fliter=a").contains("did you mean filter?"));
-        assert!(wrong("samples=1").contains("did you mean spp?"));
+        assert!(wrong("fliter=a").contains("did you mean \"filter\"?"));
+        assert!(wrong("samples=1").contains("did you mean \"spp\"?"));
         assert!(wrong("filter").contains("expected NAME=VALUE") && wrong("filter=a,,b").contains("missing"));
         assert!(wrong("spp=1,4,1").contains("1 is named twice"));
     }

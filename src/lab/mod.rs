@@ -10,3 +10,4 @@ pub mod sheet;
 pub mod stability;
 pub mod study;
 pub mod verify;
+pub mod view;

@@ -9,6 +9,7 @@ pub mod backend;
 pub mod beam;
 pub mod bsdf;
 pub mod camera;
+pub mod camera_sample;
 pub mod cone;
 pub mod cone_shade;
 pub mod coverage;

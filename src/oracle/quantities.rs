@@ -195,13 +195,19 @@ pub fn first_hit<'a>(
 }
 
 impl<'a> FirstHit<'a> {
-    /// Returns the look-up of one of the material's textures, if it has texels.
-    pub fn look_up(&self, slot: Slot, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
+    /// Returns the indices of texture and sampler that the material reads for something, and the texture coordinate.
+    pub fn mapped(&self, slot: Slot, scene: &PackedScene, ray: &Ray) -> Option<([u32; 2], Coordinate)> {
         let [texture, sampler, second_uv] = slot.of(self.material);
         let map = self.map.filter(|_| texture != NO_TEXTURE)?;
         let shown = at_uv_of(scene, self.material, second_uv, &self.surface);
         let mapped = texture_coordinate(map, &map_input(map, ray, &shown, &self.print));
-        look_up(scene, [texture, sampler], &mapped)
+        Some(([texture, sampler], mapped))
+    }
+
+    /// Returns the look-up of one of the material's textures, if it has texels.
+    pub fn look_up(&self, slot: Slot, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
+        let (used, mapped) = self.mapped(slot, scene, ray)?;
+        look_up(scene, used, &mapped)
     }
 }
 

@@ -33,6 +33,7 @@ pub use display::{DisplayTransform, STOPS};
 pub use encode::Format;
 pub use folder::prepare_folder;
 pub use gamut::Gamut;
+pub use quantise::srgb8;
 use target::Target;
 pub use tone_map::ToneMap;
 

@@ -86,6 +86,14 @@ pub fn packed_at_centres(scene: &Scene, options: &Options) -> Result<PackedScene
     Ok(load(&at_centres(scene), options, &[On::Oracle], &mut Kept::default())?.packed)
 }
 
+/// Returns the packed scene whose camera rays are those of the scene's samples, with the footprints of layers; paths end
+/// at their first hit.
+pub fn packed_for_rays(scene: &Scene, options: &Options) -> Result<PackedScene> {
+    let mut scene = lightless(scene);
+    scene.sampling.quantity = Quantity::Texels;
+    Ok(load(&scene, options, &[On::Oracle], &mut Kept::default())?.packed)
+}
+
 /// The progress of one layer after the other.
 struct Steps<'p> {
     progress: &'p dyn Progress,

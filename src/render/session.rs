@@ -242,10 +242,8 @@ impl<'a> Session<'a> {
     /// device cannot hold the prefix sums of its textures. Nor are they tried on meshes: a beam that meets hundreds of
     /// triangles takes up to a second alone, which a pilot run on a few tiles does not foretell.
     pub(super) fn beams_beside_samples(&self) -> Result<Option<BeamPass<'a>>> {
-        let Some(textures) = &self.scene.beam_textures else { return Ok(None) };
-        if self.scene.has_concave_shapes() {
-            return Ok(None);
-        }
+        let textures = self.scene.beam_textures.as_ref().filter(|_| !self.scene.has_concave_shapes());
+        let Some(textures) = textures else { return Ok(None) };
         // Checked before they are computed: for large textures they take far more memory than the texels.
         if !texel_buffer::fits(self.gpu, pack::prefix_sum_words(textures)) {
             return Ok(None);
@@ -260,8 +258,7 @@ impl<'a> Session<'a> {
     /// thread takes at once.
     pub(super) fn tiles_beside_batches(&self, scene: &PackedScene) -> Result<TilePass<'a>> {
         // Later samples are added to earlier ones: films do so if they are compensated, or the device may end loops.
-        let is_added = !Tuning::loops_end(self.gpu.info());
-        let samples = scene.samples_at_once + u32::from(is_added);
+        let samples = scene.samples_at_once + u32::from(!Tuning::loops_end(self.gpu.info()));
         let scene = PackedScene { schedule: Schedule::Tiles, samples, ..scene.clone() };
         let features = self.features_of(&scene);
         let (renderer, film) = self.renderer(&scene, &features, shader_for(scene.algorithm, &features)?)?;

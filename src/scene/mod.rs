@@ -38,4 +38,5 @@ pub use formats::{
 };
 pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};
 pub use setting::Setting;
+pub use suggestion::suggestion;
 pub use whole::Scene;

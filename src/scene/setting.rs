@@ -44,6 +44,16 @@ impl Setting {
         &self.text
     }
 
+    /// Returns all strings within the value; a word without quotes is one.
+    pub fn strings(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        match DeValue::parse(self.value()) {
+            Ok(value) => collect_strings(value.get_ref(), &mut found),
+            Err(_) => found.push(self.value().to_owned()),
+        }
+        found
+    }
+
     /// Returns the value as it was written.
     pub(super) fn value(&self) -> &str {
         &self.text[self.value.clone()]
@@ -61,6 +71,15 @@ impl FromStr for Setting {
             return Err(format!("the value after the = is missing; {EXAMPLE}"));
         }
         Ok(Setting { keys, number: number(word), value, text: text.to_owned() })
+    }
+}
+
+fn collect_strings(value: &DeValue<'_>, found: &mut Vec<String>) {
+    match value {
+        DeValue::String(text) => found.push(text.to_string()),
+        DeValue::Array(values) => values.iter().for_each(|value| collect_strings(value.get_ref(), found)),
+        DeValue::Table(table) => table.values().for_each(|value| collect_strings(value.get_ref(), found)),
+        _ => {}
     }
 }
 
@@ -170,6 +189,15 @@ mod tests {
             let said = Setting::parse(text).unwrap_err().to_string();
             assert!(said.contains("does not end with it") || said.contains("no quoted key"), "{said}");
         }
+    }
+
+    #[test]
+    fn strings_are_found_within_values() {
+        let strings = |text: &str| Setting::parse(text).unwrap().strings();
+        assert_eq!(strings("a=b/c.png"), ["b/c.png"]);
+        assert_eq!(strings("a=\"b\""), ["b"]);
+        assert_eq!(strings("a={ x = [\"b\", 1], y = { z = 'c' } }"), ["b", "c"]);
+        assert!(strings("a=[1, 2.5, true]").is_empty());
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub(super) fn quoted(name: &str) -> String {
 
 /// Returns `; did you mean "x"?` for the candidate that `word` is a synonym or the most likely misspelling of, or
 /// nothing.
-pub(super) fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str> + Clone) -> String {
+pub fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str> + Clone) -> String {
     let word = word.to_lowercase();
     if let Some((name, also)) = meant(&word, candidates.clone()) {
         let also = also.map_or(String::new(), |(key, value)| format!(" with {key} = \"{value}\""));

@@ -2,6 +2,7 @@
 //! end with their test however it ends; signals are sent without the `kill` program, which a
 //! minimal system lacks. What a process does is measured in its CPU time, which a busy machine does not change.
 
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, ExitStatus, Output};
 use std::time::{Duration, Instant};
 
@@ -50,6 +51,14 @@ impl Running {
             std::thread::sleep(STEP);
         }
         self.0.take().unwrap().wait_with_output().unwrap()
+    }
+
+    /// Waits for the first line that it prints.
+    pub fn first_line(&mut self) -> String {
+        let mut line = String::new();
+        let stdout = self.child().stdout.as_mut().unwrap();
+        BufReader::with_capacity(1, stdout).read_line(&mut line).unwrap();
+        line
     }
 
     /// Waits while it runs and `condition` is false.

@@ -85,6 +85,10 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
             "lab::study",
         ],
     ),
+    (
+        "lab::view",
+        &["core", "texture", "scene", "schema", "pack", "gpu", "oracle", "render", "output", "lab::inspect"],
+    ),
     ("face", &["core", "texture", "scene", "gpu", "integrators", "render", "output", "lab::metrics"]),
     (
         "cli",
@@ -105,6 +109,7 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
             "lab::stability",
             "lab::study",
             "lab::verify",
+            "lab::view",
         ],
     ),
 ];
@@ -157,6 +162,7 @@ fn violations(path: &str, text: &str) -> Vec<String> {
     let opening = match path.rsplit('.').next() {
         Some("rs") => "//! ",
         Some("css") => "/* ",
+        Some("html") => "<!-- ",
         _ => "// ",
     };
     if !path.ends_with(".comp") && !text.starts_with(opening) {
@@ -293,6 +299,7 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
     }
     assert!(violations("src/core/film.rs", "use std::fs;\n")[0].contains("does not open with //!"));
     assert!(violations("src/a/a.css", "body {}\n")[0].contains("does not open with /*"));
+    assert!(violations("src/a/a.html", "<!doctype html>\n")[0].contains("does not open with <!--"));
     assert!(violations("glsl/shared/a.glsl", "#ifndef A\n")[0].contains("does not open with //"));
     assert!(violations("glsl/shared/a.glsl", "// A.\nfloat x = y / sqrt(z);\n")[0].contains(":2: 1 / sqrt"));
     let long = format!("{doc}{}", "\n".repeat(MAX_LINES));

@@ -95,4 +95,6 @@ mod tiling;
 mod turned;
 mod validated;
 mod verify;
+#[cfg(unix)]
+mod view;
 mod watch;

@@ -229,7 +229,18 @@ fn a_scene_of_the_program_and_its_copy_render_as_the_file_does() {
             .current_dir(folder.path())
             .env("HOME", "/nonexistent")
             .args([
-                "render", scene, "--size", "24x16", "--spp", "1", "--device", "oracle", "-q", "-o", "a.exr",
+                "render",
+                scene,
+                "--size",
+                "24x16",
+                "--spp",
+                "1",
+                "--no-metadata",
+                "--device",
+                "oracle",
+                "-q",
+                "-o",
+                "a.exr",
             ])
             .output()
             .unwrap();

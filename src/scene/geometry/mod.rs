@@ -144,6 +144,17 @@ macro_rules! kinds {
                 std::iter::empty()$(.chain(self.$list.iter_mut().map(|shape| shape as &mut dyn Shape)))+
             }
 
+            /// Returns the name of the kind of the shape with this number from 0, and its number among those, from 1.
+            pub fn kind_of(&self, mut number: usize) -> Option<(&'static str, usize)> {
+                for (name, count) in [$((<$kind as Kind>::SECTION, self.$list.len())),+] {
+                    if number < count {
+                        return Some((name, number + 1));
+                    }
+                    number -= count;
+                }
+                None
+            }
+
             fn count(&self) -> usize {
                 [$(self.$list.len()),+].iter().sum()
             }

@@ -18,7 +18,8 @@ const BUILDS: &[&str] =
 
 /// Adds the device under test where a line names none. Whether a command works does not depend on how much it does: a
 /// line that names neither a size, nor a part of the full picture, nor another picture renders a small one, and one that
-/// verifies everything verifies all address modes of some formats and sizes.
+/// verifies everything verifies all address modes of some formats and sizes. A view is served until Ctrl-C, which comes
+/// after some seconds.
 const WRAPPER: &str = "#!/bin/sh
 case \" $* \" in
 *' --size '* | *' --crop '* | *' --only '* | *' --from '*) ;;
@@ -27,6 +28,13 @@ case \" $* \" in
     render | study | sheet) set -- \"$@\" --size 64x48 ;;
     verify) set -- \"$@\" --only 'srgb 2×2' ;;
     esac
+    ;;
+esac
+case \"$1\" in
+view)
+    timeout --preserve-status --signal=INT 3 PROGRAM \"$@\" --device DEVICE
+    [ $? = 130 ]
+    exit
     ;;
 esac
 case \" $* \" in

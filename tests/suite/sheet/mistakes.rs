@@ -15,7 +15,7 @@ fn mistakes_end_with_exit_code_2_and_leave_no_file() {
     let with = |more: &[&'static str]| [&spp[..], more].concat();
     for (options, what) in [
         (vec![], "--vary"),
-        (vec!["--vary", "fliter=ewa"], "did you mean filter?"),
+        (vec!["--vary", "fliter=ewa"], "did you mean \"filter\"?"),
         (vec!["--vary", "filter=neares"], "a similar value exists: 'nearest'"),
         (vec!["--vary", "filter=nearest,,ewa"], "a value is missing"),
         (vec!["--vary", "spp=1,1"], "1 is named twice"),

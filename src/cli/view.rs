@@ -1,0 +1,71 @@
+//! `moire view SCENE`: serves a page on the loopback address that renders the scene while one looks. All invalid input is
+//! refused before the device starts.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use super::overrides::Overrides;
+use super::{DEVICE, OUTPUT};
+use crate::core::error::{Error, Result};
+use crate::gpu::DeviceSelect;
+use crate::lab::view::{Page, Settings, Source, Stop};
+use crate::render::On;
+use crate::scene::is_standard_input;
+
+/// Show a scene in a browser, refined while one looks, with two settings side by side
+///
+/// Prints the address of a page that only this machine can open, and serves it until Ctrl-C. The page shows the picture
+/// as it refines, menus for all options, two settings with a wipe between them, what single pixels are made of, error
+/// against time, and the command that renders the same picture. From another machine: ssh -L 8000:127.0.0.1:8000.
+#[derive(clap::Args, Debug)]
+pub struct ViewArgs {
+    /// Scene file or model
+    scene: PathBuf,
+    /// Port of 127.0.0.1 at which the page is served [default: a free one]
+    #[arg(long, value_name = "PORT", default_value = "0", hide_default_value = true, help_heading = OUTPUT)]
+    port: u16,
+    #[command(flatten)]
+    overrides: Overrides,
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU)
+    /// [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
+    device: Option<String>,
+    /// Print nothing but the address and errors
+    #[arg(short, long, help_heading = OUTPUT)]
+    quiet: bool,
+}
+
+pub fn run(args: &ViewArgs) -> Result<ExitCode> {
+    if is_standard_input(&args.scene) {
+        return Err(Error::with_help(
+            "a view needs a scene file: it is read again for every setting",
+            "write the scene to a file first",
+        ));
+    }
+    if args.overrides.goal().is_some() {
+        return Err(Error::with_help(
+            "a view refines until it is stopped: it takes no --budget and no --target-error",
+            "leave them out; the page shows the error against time",
+        ));
+    }
+    let on = match &args.device {
+        Some(text) => On::parse(text)?,
+        None => On::Device(DeviceSelect::Default),
+    };
+    let stop = Arc::new(Stop::default());
+    let stopping = stop.clone();
+    ctrlc::set_handler(move || stopping.stop())
+        .map_err(|e| Error::new(format!("cannot listen to Ctrl-C: {e}")))?;
+    let camera = args.overrides.camera();
+    let source = Source { path: args.scene.clone(), camera, device: args.device.clone() };
+    let first = Settings { options: args.overrides.options().collect(), set: args.overrides.settings() };
+    let page = Page::open(source, first, &on, args.port)?;
+    super::print(&page.address)?;
+    if !args.quiet {
+        super::notify("open it in a browser of this machine; Ctrl-C ends it");
+    }
+    stop.wait();
+    page.close();
+    Ok(ExitCode::from(130))
+}

@@ -1,0 +1,240 @@
+//! The options of the page, in one table: those of `moire render` whose values are words, from their vocabularies, those
+//! that are typed, and keys of all samplers. Input: an option and its value as text. Output: a change of the scene, or
+//! what is wrong with the value.
+
+use serde_json::{Value, json};
+
+use super::SAMPLES;
+use crate::scene::changes::Changes;
+use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
+use crate::scene::{MAX_RADIUS, MAX_SIZE, MAX_SPP};
+use crate::texture::sampler_spec::{Address, Filter, LevelUse, Method, TexelCenter};
+
+/// An option of the page.
+pub struct Choice {
+    /// The option of `moire render` without its dashes, or the key of `--set`.
+    pub name: &'static str,
+    /// Its values; none for what is typed.
+    pub names: &'static [&'static str],
+    /// What it is.
+    pub help: &'static str,
+    pub kind: Kind,
+}
+
+/// How an option takes effect.
+pub enum Kind {
+    /// As an option of the command line: changes the scene, or returns what was expected.
+    Option(fn(&mut Changes, &str) -> Result<(), String>),
+    /// As `--set`.
+    Set,
+}
+
+const BOOL: &[&str] = &["true", "false"];
+
+macro_rules! word {
+    ($field:ident, $kind:ident) => {
+        Kind::Option(|changes, value| {
+            changes.$field = Some($kind::from_name(value).ok_or_else(|| expected($kind::NAMES))?);
+            Ok(())
+        })
+    };
+}
+
+macro_rules! number {
+    ($field:ident, $most:expr) => {
+        Kind::Option(|changes, value| {
+            let number = value.parse().ok().filter(|number| (0..=$most).contains(number));
+            changes.$field = Some(number.ok_or_else(|| format!("expected an integer up to {}", $most))?);
+            Ok(())
+        })
+    };
+}
+
+/// All options, in the order of the page and of commands.
+pub const CHOICES: &[Choice] = &[
+    Choice {
+        name: "algorithm",
+        names: Algorithm::NAMES,
+        help: "how a picture is made of samples",
+        kind: word!(algorithm, Algorithm),
+    },
+    Choice {
+        name: "pattern",
+        names: Pattern::NAMES,
+        help: "where samples lie in their pixel",
+        kind: word!(pattern, Pattern),
+    },
+    Choice {
+        name: "spp",
+        names: &[],
+        help: "samples a pixel up to which it refines",
+        kind: number!(spp, MAX_SPP),
+    },
+    Choice {
+        name: "seed",
+        names: &[],
+        help: "another set of random positions",
+        kind: number!(seed, u32::MAX),
+    },
+    Choice {
+        name: "shared",
+        names: BOOL,
+        help: "whether all pixels share their displacements",
+        kind: Kind::Option(|changes, value| {
+            changes.shared = Some(value.parse().map_err(|_| expected(BOOL))?);
+            Ok(())
+        }),
+    },
+    Choice {
+        name: "pixel-filter",
+        names: PixelFilterKind::NAMES,
+        help: "what weighs the samples of a pixel",
+        kind: word!(pixel_filter, PixelFilterKind),
+    },
+    Choice {
+        name: "pixel-filter-radius",
+        names: &[],
+        help: "pixels that it reaches to each side",
+        kind: Kind::Option(|changes, value| {
+            let radius = value.parse().ok().filter(|radius| (1e-30..=MAX_RADIUS).contains(radius));
+            let what = || format!("expected a number above 0 and at most {MAX_RADIUS} (pixels)");
+            changes.pixel_filter_radius = Some(radius.ok_or_else(what)?);
+            Ok(())
+        }),
+    },
+    Choice {
+        name: "footprint",
+        names: Footprint::NAMES,
+        help: "over what each look-up averages",
+        kind: word!(footprint, Footprint),
+    },
+    Choice { name: "filter", names: Filter::NAMES, help: "of all samplers", kind: word!(filter, Filter) },
+    Choice {
+        name: "mip",
+        names: LevelUse::NAMES,
+        help: "levels that all samplers read",
+        kind: word!(mip, LevelUse),
+    },
+    Choice {
+        name: "method",
+        names: Method::NAMES,
+        help: "the shader's own look-up, or the texture unit",
+        kind: word!(method, Method),
+    },
+    Choice {
+        name: "sampler.*.address",
+        names: Address::NAMES,
+        help: "beyond the edge of a texture",
+        kind: Kind::Set,
+    },
+    Choice {
+        name: "sampler.*.texel_center",
+        names: TexelCenter::NAMES,
+        help: "where the middle of a texel lies",
+        kind: Kind::Set,
+    },
+    Choice {
+        name: "precision",
+        names: Precision::NAMES,
+        help: "of geometry",
+        kind: word!(precision, Precision),
+    },
+    Choice {
+        name: "size",
+        names: &[],
+        help: "width and height, such as 320x240",
+        kind: Kind::Option(|changes, value| {
+            let sides = value.split_once(['x', '×']);
+            let sides = sides.and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+            let fits = |size: &[u32; 2]| size.iter().all(|side| (1..=MAX_SIZE).contains(side));
+            let what = || format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIZE}, such as 512x512");
+            changes.size = Some(sides.filter(fits).ok_or_else(what)?);
+            Ok(())
+        }),
+    },
+];
+
+fn expected(names: &[&str]) -> String {
+    format!("expected one of {}", names.join(", "))
+}
+
+/// Returns the option with this name.
+pub fn choice(name: &str) -> Option<&'static Choice> {
+    CHOICES.iter().find(|choice| choice.name == name)
+}
+
+/// Returns the table for the page; `own` are the values of the scene itself.
+pub fn described(own: &Scene) -> Value {
+    let of = |choice: &Choice| {
+        json!({
+            "name": choice.name,
+            "values": choice.names,
+            "help": choice.help,
+            "own": own_value(own, choice.name),
+        })
+    };
+    CHOICES.iter().map(of).collect()
+}
+
+/// Returns the value that a scene has; none where its samplers differ, or where it has no samplers.
+fn own_value(scene: &Scene, name: &str) -> Option<String> {
+    let sampling = &scene.sampling;
+    Some(match name {
+        "algorithm" => sampling.algorithm.name().into(),
+        "pattern" => sampling.pattern.name().into(),
+        "spp" => sampling.spp.max(SAMPLES).to_string(),
+        "seed" => sampling.seed.to_string(),
+        "shared" => sampling.shared.to_string(),
+        "pixel-filter" => scene.pixel_filter.kind.name().into(),
+        "pixel-filter-radius" => scene.pixel_filter.radius.to_string(),
+        "footprint" => sampling.footprint.name().into(),
+        "precision" => sampling.precision.name().into(),
+        "size" => format!("{}x{}", scene.width, scene.height),
+        _ => {
+            let of = |sampler: &crate::texture::sampler_spec::SamplerSpec| match name {
+                "filter" if sampler.mag != sampler.min => format!("{}/{}", sampler.mag, sampler.min),
+                "filter" => sampler.min.name().into(),
+                "mip" if sampler.stored_levels => "stored".into(),
+                "mip" => sampler.mip.name().into(),
+                "method" => sampler.method.name().into(),
+                "sampler.*.texel_center" => sampler.texel_center.name().into(),
+                _ => {
+                    let [u, v] = sampler.address;
+                    if u == v { u.name().into() } else { format!("{u}/{v}") }
+                }
+            };
+            let first = of(scene.samplers.first()?);
+            scene.samplers.iter().all(|sampler| of(sampler) == first).then_some(first)?
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_of_every_vocabulary_is_a_value() {
+        for choice in CHOICES {
+            let Kind::Option(set) = &choice.kind else { continue };
+            for name in choice.names {
+                assert_eq!(set(&mut Changes::default(), name), Ok(()), "{}={name}", choice.name);
+            }
+            let said = set(&mut Changes::default(), "no such word").expect_err(choice.name);
+            assert!(said.starts_with("expected"), "{said}");
+        }
+    }
+
+    #[test]
+    fn sizes_and_numbers_keep_their_limits() {
+        let set = |name: &str, value: &str| match &choice(name).unwrap().kind {
+            Kind::Option(set) => set(&mut Changes::default(), value).is_ok(),
+            Kind::Set => unreachable!(),
+        };
+        assert!(
+            set("size", "640x480") && !set("size", "0x4") && !set("size", "99999x1") && !set("size", "4")
+        );
+        assert!(set("spp", "16777216") && !set("spp", "16777217") && !set("spp", "-1"));
+        assert!(set("pixel-filter-radius", "1.5") && !set("pixel-filter-radius", "nan"));
+    }
+}

@@ -1,0 +1,139 @@
+// What the pixel under the crosshair is made of: its values on both sides, its surface, its samples, and what it reads of
+// textures, with the footprint drawn on the texels.
+import { SIDES, drawn, element, short } from "./dom.js";
+
+/** Colours by which surfaces are told apart. */
+const COLORS = 8;
+
+export class PixelPanel {
+  constructor(box, title, address) {
+    Object.assign(this, { box, title, address });
+    this.isAsking = false;
+    this.shown = "";
+  }
+
+  /** Shows the crosshair's pixel; the newest one while another is asked for. */
+  async show(state, picture) {
+    if (!picture.cross || !state) return;
+    this.wanted = [state, picture];
+    if (this.isAsking) return;
+    this.isAsking = true;
+    try {
+      while (this.wanted) {
+        const [now, where] = this.wanted;
+        this.wanted = null;
+        await this.ask(now, where);
+      }
+    } catch {
+      this.shown = "";
+    }
+    this.isAsking = false;
+  }
+
+  /** Shows the same pixel of newer pictures. */
+  refresh(state, picture) {
+    if (picture.cross && this.key(state, picture) !== this.shown) this.show(state, picture);
+  }
+
+  key(state, picture) {
+    return [picture.cross, picture.sideOfCross(), ...state.sides.map((side) => `${side.number}/${side.spp}`)].join();
+  }
+
+  async ask(state, picture) {
+    this.shown = this.key(state, picture);
+    const { cross, frame } = picture;
+    const front = picture.sideOfCross();
+    const isOne = state.sides[0].number === state.sides[1].number;
+    const of = async (side) => {
+      const size = [state.sides[side].width, state.sides[side].height];
+      const place = cross.map((value, i) => Math.min(Math.floor(((value + 0.5) * size[i]) / frame[i]), size[i] - 1));
+      const answer = await fetch(this.address(side, place));
+      return answer.ok ? answer.json() : { error: `the program answered ${answer.status}` };
+    };
+    const told = isOne ? [await of(0)] : await Promise.all([of(0), of(1)]);
+    this.draw(told, isOne ? 0 : front, cross, isOne);
+  }
+
+  draw(told, front, cross, isOne) {
+    const own = told[front];
+    const name = isOne ? "" : ` of ${SIDES[front].toUpperCase()}`;
+    this.title.textContent = `Pixel ${cross.join(", ")}${name}`;
+    if (own.error) {
+      this.box.replaceChildren(element("p", { class: "error" }, own.error));
+      return;
+    }
+    const cards = [this.values(told, own, isOne), this.samples(own)];
+    cards.push(...own.look_ups.map((lookUp) => this.lookUp(lookUp)));
+    this.box.replaceChildren(...cards.filter((card) => card));
+  }
+
+  values(told, front, isOne) {
+    const rows = [];
+    told.forEach((own, side) => {
+      if (!own.value) return;
+      const of = isOne ? "" : ` ${SIDES[side].toUpperCase()}`;
+      rows.push([`linear${of}`, own.value.linear.map((value) => short(value, 5)).join(" ")]);
+      rows.push([`sRGB${of}`, own.value.srgb.join(" ")]);
+    });
+    const { surface } = front;
+    if (surface) {
+      rows.push(["surface", surface.shape], ["material", surface.model ? `${surface.material} (${surface.model})` : surface.material]);
+      rows.push(["point", surface.point.map((value) => short(value)).join(" ")]);
+      rows.push(["normal", surface.normal.map((value) => short(value, 3)).join(" ")], ["depth", short(surface.depth)]);
+    } else {
+      rows.push(["surface", "background"]);
+    }
+    return card("Value and centre", facts(rows));
+  }
+
+  samples({ samples, surfaces }) {
+    if (!samples.length) return null;
+    const reach = Math.max(0.06, ...samples.flatMap(([x, y]) => [-x, -y, x - 1, y - 1]));
+    const side = 1 + 2 * reach;
+    const dots = samples.map(([x, y, surface]) => drawn("circle", {
+      cx: x, cy: y, r: (side * 0.022 * Math.min(1, 8 / Math.sqrt(samples.length))).toFixed(4), class: `k${surface % COLORS}`,
+    }));
+    const drawing = drawn("svg", { class: "drawing", viewBox: `${-reach} ${-reach} ${side} ${side}`, role: "img", "aria-label": `${samples.length} samples in the pixel` },
+      drawn("rect", { x: 0, y: 0, width: 1, height: 1, class: "square" }), ...dots);
+    const list = surfaces.map((surface, i) => element("li", {},
+      element("span", { class: `swatch k${i % COLORS}` }), ` ${surface.shape}${surface.material ? `, ${surface.material}` : ""}: ${surface.samples} of ${samples.length}`));
+    const found = surfaces.length === 1 ? "1 surface" : `${surfaces.length} surfaces`;
+    return card(`Samples: ${found}`, drawing, element("ul", { class: "surfaces" }, ...list));
+  }
+
+  lookUp(own) {
+    const rows = [["uv", own.uv.slice(0, 2).map((value) => short(value, 5)).join(" ")]];
+    if (own.size) {
+      rows.push(["texel", `${own.texel.join(", ")} of ${own.size.join(" × ")}`]);
+      rows.push(["level", `${short(own.level, 3)} of 0 to ${own.levels - 1}`]);
+      rows.push(["footprint", `${own.texels.map((value) => short(value, 3)).join(" × ")} texels`]);
+      rows.push(["filter", `${own.filter}, mip ${own.mip}`], ["address", own.address.join(", ")]);
+    } else {
+      rows.push(["texels", "none: it is computed"]);
+    }
+    const title = `${own.use}: ${own.texture}`;
+    return card(title, ...(own.window ? [footprint(own.window)] : []), facts(rows));
+  }
+}
+
+function card(title, ...content) {
+  return element("div", { class: "card" }, element("h3", {}, title), ...content);
+}
+
+function facts(rows) {
+  return element("dl", { class: "facts" }, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, String(value))]));
+}
+
+/** Draws texels with the parallelogram of the pixel's footprint and the ellipse within it. */
+function footprint({ png, side, level, centre: [x, y], axes: [[ax, ay], [bx, by]] }) {
+  const corner = (s, t) => `${x + (s * ax + t * bx) / 2},${y + (s * ay + t * by) / 2}`;
+  const around = Array.from({ length: 49 }, (_, i) => (i * Math.PI) / 24).map((angle) => corner(Math.cos(angle), Math.sin(angle)));
+  const square = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)].join(" ");
+  const shapes = ["outline", "outline in"].flatMap((name) => [
+    drawn("polygon", { points: square, class: name }),
+    drawn("polygon", { points: around.join(" "), class: name }),
+  ]);
+  const what = level === null ? "The texture around the pixel's footprint" : `Texels of level ${level} around the pixel's footprint`;
+  return drawn("svg", { class: "drawing", viewBox: `0 0 ${side} ${side}`, role: "img", "aria-label": what },
+    drawn("title", {}, what), drawn("image", { href: `data:image/png;base64,${png}`, width: side, height: side }), ...shapes);
+}

@@ -1,0 +1,153 @@
+//! The settings of one side of the page: options by name, and `KEY=VALUE` of the scene. Output: the scene as `moire
+//! render` would render it with them, the counts of samples through which its picture refines, and the command.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::SAMPLES;
+use super::choices::{CHOICES, Kind, choice};
+use crate::core::error::{Error, Result};
+use crate::scene::changes::Changes;
+use crate::scene::model::Scene;
+use crate::scene::prune::prune;
+use crate::scene::{Reading, Setting, advice, check_spp, load_as};
+
+/// Options and settings of a side, and bytes of one.
+const MAX_COUNT: usize = 64;
+const MAX_BYTES: usize = 4096;
+
+/// What the program was started with: what all sides have in common.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The scene file.
+    pub path: PathBuf,
+    pub camera: Option<String>,
+    /// The device, as it was named.
+    pub device: Option<String>,
+}
+
+/// The settings of a side.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Settings {
+    /// Values by the names of options.
+    pub options: BTreeMap<String, String>,
+    /// `KEY=VALUE`, in order.
+    pub set: Vec<String>,
+}
+
+/// A scene with settings, ready to be rendered.
+pub struct Resolved {
+    pub scene: Scene,
+    /// Samples a pixel of its pictures, rising.
+    pub counts: Vec<u32>,
+    pub warnings: Vec<String>,
+}
+
+impl Settings {
+    /// Reads settings as the page sends them.
+    pub fn from_json(value: &Value) -> Result<Settings> {
+        let wrong = || Error::new("expected {\"options\": {NAME: VALUE}, \"set\": [\"KEY=VALUE\"]}");
+        let text = |value: &Value| Some(value.as_str().filter(|text| text.len() <= MAX_BYTES)?.to_owned());
+        let options = value["options"].as_object().ok_or_else(wrong)?;
+        let set = value["set"].as_array().ok_or_else(wrong)?;
+        if options.len() > MAX_COUNT || set.len() > MAX_COUNT {
+            return Err(Error::new(format!("expected at most {MAX_COUNT} options and settings")));
+        }
+        let options = options.iter().map(|(name, value)| Some((name.clone(), text(value)?)));
+        let options: Option<BTreeMap<String, String>> = options.collect();
+        let set: Option<Vec<String>> = set.iter().map(text).collect();
+        Ok(Settings { options: options.ok_or_else(wrong)?, set: set.ok_or_else(wrong)? })
+    }
+
+    /// Returns all that goes with `--set`: choices of the menus, then what was typed.
+    fn all_set(&self) -> Vec<String> {
+        let chosen = CHOICES.iter().filter(|choice| matches!(choice.kind, Kind::Set));
+        let chosen =
+            chosen.filter_map(|choice| Some(format!("{}={}", choice.name, self.options.get(choice.name)?)));
+        chosen.chain(self.set.iter().cloned()).collect()
+    }
+
+    fn changes(&self) -> Result<Changes> {
+        let mut changes = Changes::default();
+        for (name, value) in &self.options {
+            let known = choice(name).ok_or_else(|| Error::new(format!("there is no option {name:?}")))?;
+            if let Kind::Option(set) = &known.kind {
+                set(&mut changes, value)
+                    .map_err(|what| Error::new(format!("--{name}: found {value:?}; {what}")))?;
+            }
+        }
+        Ok(changes)
+    }
+
+    /// Reads the scene with these settings. `keeps_meshes`: for numbering what a pixel shows.
+    pub fn load(&self, source: &Source, keeps_meshes: bool) -> Result<Scene> {
+        let changes = self.changes()?;
+        let settings = self.all_set().iter().map(|text| Setting::parse(text)).collect::<Result<Vec<_>>>()?;
+        let reading = Reading { camera: source.camera.as_deref(), keeps_meshes, settings: &settings };
+        let mut scene = load_as(&source.path, &reading)?;
+        changes.apply(&mut scene)?;
+        prune(&mut scene);
+        Ok(scene)
+    }
+
+    /// Reads the scene with these settings and plans how its picture refines.
+    pub fn resolve(&self, source: &Source) -> Result<Resolved> {
+        let mut scene = self.load(source, false)?;
+        if !self.options.contains_key("spp") {
+            scene.sampling.spp = scene.sampling.spp.max(SAMPLES);
+        }
+        let counts = counts(&scene);
+        Ok(Resolved { warnings: advice::of_scene(&scene), scene, counts })
+    }
+
+    /// Returns the command that renders the picture of a number of samples, for a shell.
+    pub fn command(&self, source: &Source, count: u32) -> String {
+        let mut words = vec!["moire".to_owned(), "render".into(), quoted(&source.path.display().to_string())];
+        let mut option = |name: &str, value: &str| words.extend([format!("--{name}"), quoted(value)]);
+        if let Some(camera) = &source.camera {
+            option("camera", camera);
+        }
+        self.all_set().iter().for_each(|text| option("set", text));
+        for Given { name, value } in self.given(count) {
+            option(name, &value);
+        }
+        if let Some(device) = &source.device {
+            option("device", device);
+        }
+        words.join(" ")
+    }
+
+    /// Returns the options of the command line, with that number of samples.
+    fn given(&self, count: u32) -> Vec<Given> {
+        let options = CHOICES.iter().filter(|choice| matches!(choice.kind, Kind::Option(_)));
+        let value = |name: &str| {
+            if name == "spp" { Some(count.to_string()) } else { self.options.get(name).cloned() }
+        };
+        options.filter_map(|choice| Some(Given { name: choice.name, value: value(choice.name)? })).collect()
+    }
+}
+
+/// An option and its value.
+struct Given {
+    name: &'static str,
+    value: String,
+}
+
+/// Returns the counts through which a picture refines: powers of two that its pattern takes, and that of the scene.
+fn counts(scene: &Scene) -> Vec<u32> {
+    let sampling = &scene.sampling;
+    let last = sampling.samples();
+    let powers = (0..32).map(|log| 1u32 << log).take_while(|&count| count < last);
+    powers.filter(|&count| check_spp(sampling.pattern, count).is_ok()).chain([last]).collect()
+}
+
+/// Returns a word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
