@@ -266,6 +266,7 @@ mod tests {
         "json",
         "quiet",
         "verbose",
+        "watch",
     ];
 
     #[test]
