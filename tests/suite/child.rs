@@ -3,7 +3,7 @@
 //! minimal system lacks. What a process does is measured in its CPU time, which a busy machine does not change.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Child, Command, ExitStatus, Output};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Output};
 use std::time::{Duration, Instant};
 
 use nix::sys::signal::{Signal, kill};
@@ -59,6 +59,12 @@ impl Running {
         let stdout = self.child().stdout.as_mut().unwrap();
         BufReader::with_capacity(1, stdout).read_line(&mut line).unwrap();
         line
+    }
+
+    /// Takes the ends of its pipes, to write to it and to read from it.
+    pub fn pipes(&mut self) -> (ChildStdin, ChildStdout) {
+        let child = self.child();
+        (child.stdin.take().unwrap(), child.stdout.take().unwrap())
     }
 
     /// Waits while it runs and `condition` is false.

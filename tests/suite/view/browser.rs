@@ -2,17 +2,18 @@
 //! them, keys move wipe and crosshair, nothing is wider than a phone, and the console is silent. Two tabs at once.
 
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::{ChildStdin, ChildStdout, Command, Stdio};
 
 use serde_json::{Value, json};
 use tempfile::{TempDir, tempdir};
 
 use super::View;
 use crate::browser::{brightness, is_installed};
+use crate::child::Running;
 
 /// A browser, spoken to by JSON with zeros between messages.
 struct Browser {
-    child: Child,
+    _process: Running,
     to: ChildStdin,
     from: BufReader<ChildStdout>,
     number: u64,
@@ -28,9 +29,10 @@ impl Browser {
                     --user-data-dir=\"$0\" about:blank 3<&0 4>&1 </dev/null >/dev/null 2>&1";
         let mut command = Command::new("bash");
         command.args(["-c", line]).arg(profile.path()).stdin(Stdio::piped()).stdout(Stdio::piped());
-        let mut child = command.spawn().unwrap();
-        let (to, from) = (child.stdin.take().unwrap(), BufReader::new(child.stdout.take().unwrap()));
-        Browser { child, to, from, number: 0, complaints: Vec::new(), _profile: profile }
+        let mut process = Running::start(&mut command);
+        let (to, from) = process.pipes();
+        let from = BufReader::new(from);
+        Browser { _process: process, to, from, number: 0, complaints: Vec::new(), _profile: profile }
     }
 
     fn call(&mut self, session: Option<&str>, method: &str, params: Value) -> Value {
@@ -96,14 +98,6 @@ impl Browser {
         let value = self.run(session, &poll);
         assert!(!value.is_null(), "never: {expression}; {:#?}", self.complaints);
         value
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        // It may have ended already.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
 
