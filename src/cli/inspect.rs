@@ -59,7 +59,8 @@ pub fn run(args: &InspectArgs) -> Result<ExitCode> {
             counted(files.len(), "file"),
             args.out.display()
         ));
-        super::print(&inspection.advice.sentence)?;
+        let sizes = inspect::page::sizes(&scene, &inspection);
+        super::print(&[vec![inspection.advice.sentence.clone()], sizes].concat().join("\n"))?;
     }
     Ok(ExitCode::SUCCESS)
 }

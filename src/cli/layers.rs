@@ -140,9 +140,14 @@ impl Wanted {
         outputs.write_with(film, &beside.collect::<Vec<_>>(), &options)
     }
 
-    /// Returns the files that are written beside the outputs.
+    /// Returns the paths of the files that are written beside the outputs.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.pictures.iter().map(|picture| picture.path.as_path())
+    }
+
+    /// Returns the files that are written beside the outputs, for messages.
     pub fn names(&self) -> Vec<String> {
-        self.pictures.iter().map(|picture| picture.path.display().to_string()).collect()
+        self.paths().map(|path| path.display().to_string()).collect()
     }
 }
 

@@ -83,6 +83,36 @@ impl Outputs {
     }
 }
 
+/// Refuses files of which two are the same one, however their paths are written.
+pub fn check_distinct<'p>(paths: impl IntoIterator<Item = &'p Path>) -> Result<()> {
+    let mut seen: Vec<(PathBuf, &Path)> = Vec::new();
+    for path in paths {
+        let place = place(path);
+        if let Some((_, first)) = seen.iter().find(|(known, _)| *known == place) {
+            let what = if *first == path {
+                format!("{}: two outputs have this name, and one would replace the other", path.display())
+            } else {
+                format!(
+                    "{} and {} are one file, and one output would replace the other",
+                    first.display(),
+                    path.display()
+                )
+            };
+            return Err(Error::with_help(what, "give each output a name of its own with -o"));
+        }
+        seen.push((place, path));
+    }
+    Ok(())
+}
+
+/// Returns where a file lies or would lie; a missing folder is told elsewhere.
+fn place(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let lies = path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name));
+    lies.canonicalize().unwrap_or(lies)
+}
+
 /// Returns the scene's name with `.png`, in the current folder.
 pub fn default_name(scene: &Path) -> PathBuf {
     let built_in = BuiltIn::named(scene).ok().flatten();

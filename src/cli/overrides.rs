@@ -202,6 +202,11 @@ impl Overrides {
         self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))
     }
 
+    /// Returns true if a number of samples was named.
+    pub fn names_spp(&self) -> bool {
+        self.spp.is_some()
+    }
+
     /// Returns the settings that the render used, overridden or not.
     pub fn report(&self, scene: &Scene, crop: Option<Rect>, keep_everything: bool) -> Value {
         let s = &scene.sampling;

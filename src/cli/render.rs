@@ -1,14 +1,14 @@
 //! `moire render`: renders a scene file with options into pictures and, with `--json`, one JSON
 //! object of statistics. All invalid input is refused before the device starts.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::ArgMatches;
 
 use super::layers::Wanted;
-use super::outputs::{Outputs, default_name};
+use super::outputs::{Outputs, check_distinct, default_name};
 use super::progress::Bar;
 use super::record::Record;
 pub use super::render_args::RenderArgs;
@@ -119,6 +119,7 @@ impl<'a> Job<'a> {
                 .try_for_each(|from| super::check_input_kept(path, from, "the picture of --from"))?;
         }
         let wanted = Wanted::new(&args.layers, &self.outputs, &scene)?;
+        check_distinct(self.outputs.files.iter().map(PathBuf::as_path).chain(wanted.paths()))?;
         let dropped = prune(&mut scene);
         Ok(Stage { scene, file, wanted, chosen, dropped })
     }
@@ -208,6 +209,10 @@ impl<'a> Job<'a> {
         warnings.splice(..0, advice::of_scene(scene));
         warnings.extend(self.args.display.without_effect(&self.outputs));
         warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
+        if self.has_goal() && self.args.overrides.names_spp() {
+            warnings
+                .push("--spp has no effect with --budget or --target-error, which choose the samples".into());
+        }
         let counts_follow_neighbours =
             matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
         if self.args.crop.is_some() && counts_follow_neighbours {

@@ -15,6 +15,7 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::output::record;
 use crate::scene::model::Scene;
 use crate::scene::{self, BuiltIn, Reading, SceneFile, is_standard_input};
+use crate::texture::open_file::hint;
 
 /// Options of `moire render` that decide pixels, beside those that override the scene or belong to the display.
 const OWN: &[&str] =
@@ -54,7 +55,9 @@ impl<'a> Replay<'a> {
     /// Reads the record of a picture.
     pub fn open(picture: &'a Path) -> Result<Replay<'a>> {
         let shown = picture.display().to_string();
-        let text = record::read(picture)?.filter(|text| text.trim_start().starts_with('{')).ok_or_else(|| {
+        let told = |error: Error| if picture.exists() { error } else { error.and_help(hint(picture)) };
+        let text = record::read(picture).map_err(told)?;
+        let text = text.filter(|text| text.trim_start().starts_with('{')).ok_or_else(|| {
             Error::with_help(
                 format!("{shown}: this picture does not say how it was made"),
                 "pictures of `moire render` do, unless --no-metadata was given or another program has stored them again",

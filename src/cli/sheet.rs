@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::outputs::check_distinct;
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::render::check_inputs_kept;
@@ -153,6 +154,7 @@ fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
         output::check_writable(&path)?;
         Ok(Output { path, is_page })
     };
+    check_distinct(paths.iter().map(PathBuf::as_path))?;
     paths.into_iter().map(output).collect()
 }
 

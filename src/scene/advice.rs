@@ -8,10 +8,14 @@ use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 
 /// Returns the warnings of a scene, whose unused samplers have been removed.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
-    let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
+    let algorithm = scene.sampling.algorithm;
+    let mut told = match algorithm {
+        // It goes without a footprint by itself, as a prefilter's bias would stay.
+        Algorithm::Auto => Vec::new(),
+        _ => without_effect(scene.sampling.footprint, &scene.samplers),
+    };
     told.extend(without_light(scene));
     told.extend(scene.notes.iter().cloned());
-    let algorithm = scene.sampling.algorithm;
     match scene.dropped_triangles {
         0 => {}
         1 => told.push(format!("a triangle ({}) has no area and was left out", scene.first_dropped)),

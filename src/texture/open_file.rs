@@ -53,7 +53,7 @@ fn refuse_other(content: Content, path: &Path) -> Result<()> {
 
 /// Returns a hint about a missing path: suspicious characters, the missing folder, or the closest
 /// name in the folder.
-fn hint(path: &Path) -> Option<String> {
+pub(crate) fn hint(path: &Path) -> Option<String> {
     if let Some(odd) = odd_path(path) {
         return Some(odd);
     }
@@ -80,7 +80,7 @@ pub fn is_volume(path: &Path) -> bool {
 
 /// Returns advice for a path written with backslashes: TOML escapes turn some of them into other
 /// characters, and only Windows separates folders with them.
-pub fn odd_path(path: &Path) -> Option<String> {
+fn odd_path(path: &Path) -> Option<String> {
     let text = path.to_string_lossy();
     if text.contains(char::is_control) {
         return Some(

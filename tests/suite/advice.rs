@@ -76,6 +76,21 @@ fn black_for_want_of_light_is_told() {
 }
 
 #[test]
+fn what_chooses_its_footprint_is_not_advised_to_take_one() {
+    let folder = pictures();
+    let path = folder.path().join("mips.toml");
+    let sampler = "[[texture]]\nname = 't'\nfile = 'flat.png'\n[[sampler]]\nname = 's'\nmip = 'linear'\n\
+                   [[material]]\nname = 'm'\nmodel = 'unlit'\ntexture = 't'\nsampler = 's'\n";
+    let of = |sampling: &str| {
+        let head = HEAD.replace("spp = 1", sampling);
+        fs::write(&path, head + sampler).unwrap();
+        told(&path)
+    };
+    says(&of("spp = 1, footprint = 'none'"), &["mip = \"linear\" has no effect", "footprint = \"cone\""]);
+    assert!(of("algorithm = 'auto', pattern = 'sobol-owen', footprint = 'none'").is_empty());
+}
+
+#[test]
 fn eight_bit_colours_of_unstated_meaning_are_told_once() {
     let folder = pictures();
     let of = |textures: &str, material: &str| {

@@ -278,6 +278,14 @@ fn a_cropped_exr_is_compared_where_it_lies_in_its_picture() {
 }
 
 #[test]
+fn a_goal_advises_no_footprint_and_tells_that_it_chooses_the_samples() {
+    let warnings = |options: &[&str]| json("filters", options)["warnings"].clone();
+    assert_eq!(warnings(&["--size", "8x8", "--budget", "10ms"]), serde_json::json!([]));
+    let told = warnings(&["--size", "8x8", "--budget", "10ms", "--spp", "4"]);
+    assert!(told[0].as_str().unwrap().contains("--spp has no effect"), "{told}");
+}
+
+#[test]
 fn png_can_have_sixteen_bits() {
     let folder = tempdir().unwrap();
     let options = with(&["-q", "-o", "a.png", "-o", "a.exr", "--png-bits", "16"]);

@@ -5,6 +5,7 @@
 mod architecture;
 mod cli;
 mod commands;
+mod examples;
 mod formulas;
 mod links;
 mod probe;

@@ -185,6 +185,9 @@ fn mistakes_name_the_file_and_what_is_allowed() {
         (&["a.ply", "b.ply"], "b.ply: a second model"),
         (&["@lecture", "-t", "x.png"], "has files of its own"),
         (&["floor", "-o", "none/floor.toml"], "create the folder first"),
+        (&["floor", "-o", "floor.png"], "floor.png: this is a picture's name"),
+        (&["@lecture", "-o", "lecture.GLB"], "lecture.GLB: this is a model's name"),
+        (&["floor", "-o", "-"], "-o -: a new scene is a file"),
     ] {
         let found = refused(&folder, arguments);
         assert!(found.contains(said), "{arguments:?}: {found}");

@@ -15,7 +15,7 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::named::named_enum;
 use crate::lab::study::quote;
 use crate::output;
-use crate::scene::{BuiltIn, is_model, parse};
+use crate::scene::{BuiltIn, is_model, is_standard_input, parse};
 use copies::Copies;
 use photo::Photo;
 use surface::Surface;
@@ -65,6 +65,7 @@ pub fn run(args: &NewArgs) -> Result<ExitCode> {
     if args.list {
         return list();
     }
+    args.output.as_deref().map_or(Ok(()), check_name)?;
     if let Some(what) = &args.what
         && let Some(scene) = BuiltIn::named(what)?
     {
@@ -157,6 +158,23 @@ fn subject(args: &NewArgs) -> Result<(Kind, Option<PathBuf>, Vec<PathBuf>)> {
         return Err(Error::with_help(what, "`moire new model` shows it"));
     }
     Ok((kind, model, pictures))
+}
+
+/// Refuses the name of a picture or of a model for a scene, and standard output, beside which no texture can be written.
+fn check_name(out: &Path) -> Result<()> {
+    let what = if is_standard_input(out) {
+        "-o -: a new scene is a file, to whose folder its paths are relative".to_owned()
+    } else if output::format_of(out).is_ok() {
+        format!("{}: this is a picture's name, and `moire new` writes a scene", out.display())
+    } else if is_model(out) {
+        format!("{}: this is a model's name, and `moire new` writes a scene", out.display())
+    } else {
+        return Ok(());
+    };
+    Err(Error::with_help(
+        what,
+        "name a scene file, such as -o scene.toml; `moire render` makes the picture of it",
+    ))
 }
 
 /// Writes the scene and the files of the program beside it, unless one of them would replace another file.

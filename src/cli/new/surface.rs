@@ -102,7 +102,10 @@ impl Surface {
             }
         }
         if self.normal.is_some() {
-            leave(self.height.take(), "a material has a normal map or heights");
+            leave(
+                self.height.take(),
+                "a material takes a normal map or heights, and the normal map is sharper",
+            );
         }
         if self.sky.is_none() {
             leave(self.occlusion.take(), "occlusion dims the light of a sky, of which there is none");

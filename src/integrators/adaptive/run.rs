@@ -224,7 +224,7 @@ impl Outcome {
         self.estimated_bias = if prefilters { (mse - noise).max(0.0).sqrt() } else { 0.0 };
         self.interval = audit
             .and_then(|audit| audit.interval)
-            .map(|[low, high]| [low.min(mse).sqrt(), high.max(noise + DEVIATE * deviation).sqrt()]);
+            .map(|[low, high]| [low.min(mse).sqrt(), high.max(mse).max(noise + DEVIATE * deviation).sqrt()]);
     }
 }
 
@@ -274,5 +274,16 @@ mod tests {
         assert_eq!(first_count(Goal::Error(1e-3), 1e-6, 4_194_304.0), 8, "nor than 2^25 in the picture");
         assert_eq!(first(Goal::Samples(64), 1.0), 8);
         assert_eq!(first(Goal::Samples(64), 0.01), 16, "half of what there is");
+    }
+    #[test]
+    fn the_bounds_of_an_error_hold_the_estimate() {
+        for (found, noise) in [(4.0, 1.0), (1.0, 4.0)] {
+            let audit = Audit { mse: found, interval: Some([2.0, 3.0]), ..Audit::default() };
+            let mut outcome = Outcome::default();
+            outcome.note(noise, 0.0, Some(&audit), false);
+            let [low, high] = outcome.interval.unwrap_or_default();
+            assert_eq!(outcome.estimated_rmse, 2.0);
+            assert!(low <= 2.0 && high >= 2.0, "{low} to {high}");
+        }
     }
 }

@@ -4,6 +4,8 @@
 mod layers;
 mod textures;
 
+pub use textures::sizes;
+
 use super::folder::Inspection;
 use super::legend::Legend;
 use crate::lab::plot::html::{Header, Html, code, document, html, section};

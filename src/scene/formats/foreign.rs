@@ -1,10 +1,11 @@
-//! What is given as a scene and is a model. Input: the name of a file, or its first bytes. Output: an error that says what a
+//! What is given as a scene and is a model or a picture. Input: the name of a file, or its first bytes. Output: an error that says what a
 //! scene may be, in place of one about TOML.
 
 use std::path::Path;
 
 use super::{FORMATS, SCENE, mesh_file, unreadable};
 use crate::core::error::Error;
+use crate::texture::open_file::check_bytes;
 
 /// Endings of models that are not read, in lower case.
 const MODELS: [&str; 22] = [
@@ -37,8 +38,15 @@ pub(super) fn check_ending(path: &Path) -> Result<(), Error> {
         .and_help(Some(format!("{}; export the model as glTF (.glb)", allowed()))))
 }
 
-/// Refuses bytes that begin as those of a model; the ending of `path` says otherwise, or there is none.
+/// Refuses bytes that begin as those of a picture or of a model; the ending of `path` says otherwise, or there is none.
 pub(super) fn check_beginning(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    if check_bytes(bytes, path).is_ok() {
+        return Err(unreadable(SCENE, path, "it is a picture, where a scene in TOML is needed").and_help(Some(
+            "`moire new floor -t PICTURE` writes a scene that shows it; a picture that moire rendered is made again with \
+             `moire render --from PICTURE`"
+                .into(),
+        )));
+    }
     let is_comment = |line: &&[u8]| line.is_empty() || line.starts_with(b"#");
     let first = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !is_comment(line));
     let first = first.unwrap_or_default();

@@ -21,7 +21,7 @@ use crate::core::built_in::{self, Opened};
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
 use crate::mesh::Fault;
-use crate::texture::open_file::odd_path;
+use crate::texture::open_file::hint;
 pub use mesh_file::is_mesh as is_model;
 pub use mesh_scene::model_view;
 pub use scene_file::SceneFile;
@@ -181,7 +181,7 @@ fn read_file(kind: &str, formats: &[&str], path: &Path, most: u64) -> Result<Vec
         return Err(unreadable(kind, path, "it is not a regular file").and_help(Some(help)));
     }
     let file = Opened::new(path).map_err(|error| {
-        let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);
+        let help = if error.kind() == Io::NotFound { hint(path) } else { None };
         unreadable(kind, path, &error.to_string()).and_help(help)
     })?;
     let expected = file.length().map_or(0, |length| length.min(most));

@@ -38,3 +38,19 @@ fn a_picture_does_not_replace_what_it_is_made_from() {
     case.fails(&[], &["render", "scene.png", "-o", "scene.png"], &["scene.png", "this is the scene file"]);
     assert_eq!(fs::read(case.path("scene.png")).unwrap(), fs::read(case.path("scene.toml")).unwrap());
 }
+
+#[test]
+fn two_outputs_that_are_one_file_are_refused() {
+    let case = Case::new();
+    fs::create_dir(case.path("b")).unwrap();
+    for (options, wanted) in [
+        (&["-o", "a.png", "-o", "a.png"][..], &["a.png: two outputs have this name"][..]),
+        (&["-o", "a.png", "-o", "./a.png"], &["a.png and ./a.png are one file"]),
+        (&["-o", "a.png", "-o", "b/../a.png"], &["a.png and b/../a.png are one file"]),
+        (&["-o", "a.png", "--aov", "level", "-o", "a.level.png"], &["a.level.png: two outputs"]),
+    ] {
+        case.refused(options, wanted);
+    }
+    let sheet = ["sheet", "scene.toml", "--vary", "spp=1,4", "-o", "s.png", "-o", "./s.png"];
+    case.fails(&[], &sheet, &["s.png and ./s.png are one file"]);
+}

@@ -114,3 +114,19 @@ fn what_is_no_scene_is_told() {
     case.put("empty.toml", b"");
     render("empty.toml", &["empty.toml", "camera"]);
 }
+
+#[test]
+fn a_picture_as_a_scene_and_a_scene_that_is_not_there_are_answered_with_what_to_type() {
+    let case = Case::new();
+    let told = ["tiles.png", "it is a picture", "moire new floor -t", "--from"];
+    case.fails(&[], &["render", "tiles.png", "-o", "a.png"], &told);
+    for (arguments, near) in [
+        (["render", "scene.tmol", "-o", "a.png"], "scene.toml"),
+        (["view", "scen.toml", "--port", "0"], "scene.toml"),
+        (["render", "--from", "tiels.png", "-q"], "tiles.png"),
+    ] {
+        let said = format!("did you mean ./{near}?");
+        case.fails(&[], &arguments, &[arguments[1].trim_start_matches("--from"), &said]);
+    }
+    case.fails(&[], &["render", "none/scene.toml", "-o", "a.png"], &["the folder none does not exist"]);
+}

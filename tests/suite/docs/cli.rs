@@ -9,14 +9,14 @@ const PAGE: &str = "docs/cli.md";
 /// The columns: option, values, default, meaning. The first three are generated.
 const COLUMNS: usize = 4;
 
-fn help(arguments: &[&str]) -> String {
+pub fn help(arguments: &[&str]) -> String {
     let output = moire().args(arguments).arg("--help").output().unwrap();
     assert!(output.status.success(), "{arguments:?}");
     String::from_utf8(output.stdout).unwrap()
 }
 
 /// Returns the commands that the help lists.
-fn commands(help: &str) -> Vec<String> {
+pub fn command_names(help: &str) -> Vec<String> {
     let list = help.split_once("Commands:\n").map_or("", |(_, rest)| rest);
     let lines = list.lines().take_while(|line| !line.is_empty());
     let names = lines.filter_map(|line| line.split_whitespace().next());
@@ -24,7 +24,7 @@ fn commands(help: &str) -> Vec<String> {
 }
 
 /// Returns each option and argument with all that the help says of it, in one line.
-fn entries(help: &str) -> Vec<String> {
+pub fn entries(help: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for line in help.lines().skip_while(|line| !line.starts_with("Usage:")).skip(1) {
         let text = line.trim_start();
@@ -60,7 +60,7 @@ fn row(entry: &str) -> Vec<String> {
 fn every_command_and_option_stands_in_the_reference() {
     let Some(page) = pages().into_iter().find(|page| page.name == PAGE) else { return };
     let (mut text, mut faults) = (page.text.clone(), Vec::new());
-    let commands = commands(&help(&[]));
+    let commands = command_names(&help(&[]));
     assert!(commands.len() >= 8, "{commands:?}");
     for command in &commands {
         let rows: Vec<Vec<String>> = entries(&help(&[command])).iter().map(|entry| row(entry)).collect();

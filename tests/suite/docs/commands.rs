@@ -18,8 +18,8 @@ const BUILDS: &[&str] =
 
 /// Adds the device under test where a line names none. Whether a command works does not depend on how much it does: a
 /// line that names neither a size, nor a part of the full picture, nor another picture renders a small one, and one that
-/// verifies everything verifies all address modes of some formats and sizes. A view is served until Ctrl-C, which comes
-/// after some seconds.
+/// verifies everything verifies all address modes of some formats and sizes. A view is served, and a scene watched, until
+/// Ctrl-C, which comes after some seconds; a port that a page names may be taken, so that a free one stands for it.
 const WRAPPER: &str = "#!/bin/sh
 case \" $* \" in
 *' --size '* | *' --crop '* | *' --only '* | *' --from '*) ;;
@@ -30,8 +30,14 @@ case \" $* \" in
     esac
     ;;
 esac
-case \"$1\" in
-view)
+case \"$1 $* \" in
+view* | *' --watch '*)
+    for word; do
+        shift
+        [ \"$before\" = --port ] && word=0
+        before=$word
+        set -- \"$@\" \"$word\"
+    done
     timeout --preserve-status --signal=INT 3 PROGRAM \"$@\" --device DEVICE
     [ $? = 130 ]
     exit
@@ -46,7 +52,7 @@ exec PROGRAM \"$@\"
 
 /// Returns the commands of a page: lines of ```sh blocks, joined where one ends with a backslash, and commands with a
 /// file of `data` within a sentence. A block that opens with `set -e` is one script.
-fn commands(text: &str) -> Vec<String> {
+pub fn commands(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut block: Option<Vec<&str>> = None;
     for line in text.lines() {

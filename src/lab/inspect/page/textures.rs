@@ -81,8 +81,19 @@ fn share_of(part: u64, all: u64) -> String {
     percent(part as f64 / all.max(1) as f64)
 }
 
+/// Returns for each texture that pixels read its size, and whether that is larger or smaller than the view needs.
+pub fn sizes(scene: &Scene, inspection: &Inspection) -> Vec<String> {
+    let views = inspection.survey.views.iter().filter(|view| view.density.pixels() > 0);
+    let told = |view: &View| {
+        let texture = view.textures.first().and_then(|&texture| scene.textures.get(texture))?;
+        let [width, height] = view.size;
+        Some(format!("texture \"{}\", {width} × {height} texels: {}", texture.name, size_needed(view)))
+    };
+    views.filter_map(told).collect()
+}
+
 /// Returns whether the texture is larger or smaller than the view needs.
-fn needs(view: &View) -> String {
+fn size_needed(view: &View) -> String {
     // Whatever else a pixel reads there: the use that magnifies most has to have enough texels.
     let density = &view.closest;
     let wanted = density.wanted(view.size);
@@ -90,22 +101,13 @@ fn needs(view: &View) -> String {
         view.size.map(|n| (f64::from(n) * f64::from(wanted.octaves).exp2()).round().max(1.0));
     let size = format!("{width} × {height}");
     let most = percent(1.0 - CLOSEST);
-    let large = 1.0 - density.above(1.0 / LARGE_TEXEL);
-    let seen = format!(
-        "It is magnified in {} of its pixels, with texels larger than two pixels in {}, and minified in {}. Half of its \
-         pixels cover {} texels or more.",
-        percent(density.below(1.0)),
-        percent(large),
-        percent(view.density.above(1.0)),
-        short(density.quantile(0.5).unwrap_or(0.0))
-    );
-    let size = if wanted.octaves < 0 {
+    if wanted.octaves < 0 {
         format!(
             "Larger than this view needs: {most} of its pixels cover {} texels and more, so {size} texels are enough for \
              them.",
             short(f64::from(-wanted.octaves).exp2())
         )
-    } else if large < CLOSEST {
+    } else if large(view) < CLOSEST {
         "Of the size that this view needs.".to_owned()
     } else if !wanted.is_capped {
         format!(
@@ -121,8 +123,25 @@ fn needs(view: &View) -> String {
             ),
         };
         format!("{beyond}, so give the parts that are magnified more room in it.")
-    };
-    format!("{size} {seen}")
+    }
+}
+
+/// Returns the share of the pixels that see texels larger than two pixels.
+fn large(view: &View) -> f64 {
+    1.0 - view.closest.above(1.0 / LARGE_TEXEL)
+}
+
+/// Returns what the texture's size is to the view, and in how many pixels it is magnified and minified.
+fn needs(view: &View) -> String {
+    format!(
+        "{} It is magnified in {} of its pixels, with texels larger than two pixels in {}, and minified in {}. Half of its \
+         pixels cover {} texels or more.",
+        size_needed(view),
+        percent(view.closest.below(1.0)),
+        percent(large(view)),
+        percent(view.density.above(1.0)),
+        short(view.closest.quantile(0.5).unwrap_or(0.0))
+    )
 }
 
 fn never_read(view: &View) -> Option<String> {
