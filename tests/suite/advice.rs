@@ -79,7 +79,7 @@ fn black_for_want_of_light_is_told() {
 fn what_chooses_its_footprint_is_not_advised_to_take_one() {
     let folder = pictures();
     let path = folder.path().join("mips.toml");
-    let sampler = "[[texture]]\nname = 't'\nfile = 'flat.png'\n[[sampler]]\nname = 's'\nmip = 'linear'\n\
+    let sampler = "[[texture]]\nname = 't'\nfile = 'flat.png'\ncolor_space = 'srgb'\n[[sampler]]\nname = 's'\nmip = 'linear'\n\
                    [[material]]\nname = 'm'\nmodel = 'unlit'\ntexture = 't'\nsampler = 's'\n";
     let of = |sampling: &str| {
         let head = HEAD.replace("spp = 1", sampling);

@@ -108,7 +108,7 @@ fn what_is_no_scene_is_told() {
     };
     render("none.toml", &["none.toml"]);
     render(".", &["it is a folder"]);
-    render("tiles.png", &["tiles.png", "UTF-8"]);
+    render("tiles.png", &["tiles.png", "it is a picture"]);
     case.put("broken.toml", b"[camera\neye = 1");
     render("broken.toml", &["broken.toml", "TOML"]);
     case.put("empty.toml", b"");

@@ -64,7 +64,8 @@ fn an_option_without_an_example_is_found() {
         ("render".to_owned(), own(&["--size <WxH>  Size", "-q, --quiet  Errors only", "SCENE"])),
         ("view".to_owned(), own(&["--port <PORT>  Port", "--size <WxH>  Size", "-q, --quiet  Errors"])),
     ]);
-    let missing = |lines: &[&str]| without_example(&options, &lines.iter().map(|l| l.to_string()).collect::<Vec<_>>());
+    let missing =
+        |lines: &[&str]| without_example(&options, &lines.iter().map(|l| l.to_string()).collect::<Vec<_>>());
     assert_eq!(missing(&["moire render a --size=4x4 -q", "cd x && moire view b --port 1"]), [""; 0]);
     assert_eq!(missing(&["moire render a --size 4x4 -q", "moire view b"]), ["moire view --port"]);
     assert_eq!(missing(&["moire render a -q | moire view --port 1 --size 4x4"]), ["moire render --size"]);

@@ -115,7 +115,10 @@ fn inspect_writes_every_layer_their_numbers_and_a_page() {
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(said.contains("Use filter linear") && said.contains("4 samples a pixel"), "{said}");
-    assert!(said.lines().any(|line| line.starts_with("texture \"") && line.contains(" this view needs")), "{said}");
+    assert!(
+        said.lines().any(|line| line.starts_with("texture \"") && line.contains(" this view needs")),
+        "{said}"
+    );
     let found = files(&folder.path().join("seen"));
     let layers = moire::internal::render::layers::Aov::NAMES;
     assert_eq!(found.len(), layers.len() + 3, "{found:?}");
