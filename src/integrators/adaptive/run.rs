@@ -278,7 +278,8 @@ mod tests {
     #[test]
     fn the_bounds_of_an_error_hold_the_estimate() {
         for (found, noise) in [(4.0, 1.0), (1.0, 4.0)] {
-            let audit = Audit { mse: found, interval: Some([2.0, 3.0]), ..Audit::default() };
+            let mut audit = Audit::default();
+            (audit.mse, audit.interval) = (found, Some([2.0, 3.0]));
             let mut outcome = Outcome::default();
             outcome.note(noise, 0.0, Some(&audit), false);
             let [low, high] = outcome.interval.unwrap_or_default();
