@@ -11,6 +11,7 @@ pub mod new;
 mod outputs;
 mod overrides;
 pub mod pattern;
+pub mod program;
 mod progress;
 mod quantity;
 mod record;

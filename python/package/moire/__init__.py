@@ -1,0 +1,77 @@
+"""moire renders textured scenes with Vulkan compute, with or without a GPU, and measures the error of its pictures.
+
+A :class:`Scene` is read from a file or built; :func:`render` makes a :class:`Picture` of it, whose array is linear light::
+
+    import moire
+
+    scene = moire.Scene("@lecture", set={"sampling.spp": 16})
+    picture = moire.render(scene, size=(320, 200))
+    picture.save("lecture.png")
+    print(moire.compare(picture, moire.render(scene, size=(320, 200), spp=256)).rmse)
+
+Errors are subclasses of :class:`Error`, one for each kind. The program ``moire`` is installed beside the module.
+"""
+
+from __future__ import annotations
+
+import json as _json
+from typing import Any
+
+from . import _moire
+from ._errors import (
+    DeviceLostError,
+    Error,
+    FileError,
+    InternalError,
+    Interrupted,
+    NoDeviceError,
+    OptionsError,
+    OutOfDeviceMemoryError,
+    OutOfHostMemoryError,
+    RenderWarning,
+    SceneError,
+    UnsupportedError,
+)
+from ._measure import Comparison, Study, compare, study
+from ._render import Picture, Renderer, aov, render
+from ._scene import Scene
+
+__version__: str = _moire.__version__
+
+
+def scenes() -> dict[str, str]:
+    """Return the scenes that the program has in itself, by name, with what each shows."""
+    return _moire.scenes()
+
+
+def devices() -> list[dict[str, Any]]:
+    """Return the Vulkan devices of this machine: ``index``, ``name``, ``kind``, ``driver``, ``limits``, and ``default``."""
+    return _json.loads(_moire.devices())
+
+
+__all__ = [
+    "Comparison",
+    "DeviceLostError",
+    "Error",
+    "FileError",
+    "InternalError",
+    "Interrupted",
+    "NoDeviceError",
+    "OptionsError",
+    "OutOfDeviceMemoryError",
+    "OutOfHostMemoryError",
+    "Picture",
+    "RenderWarning",
+    "Renderer",
+    "Scene",
+    "SceneError",
+    "Study",
+    "UnsupportedError",
+    "__version__",
+    "aov",
+    "compare",
+    "devices",
+    "render",
+    "scenes",
+    "study",
+]

@@ -1,0 +1,108 @@
+//! The whole command line: its commands by name. In: the arguments, of which the first is the name of the program. Out: what
+//! the command prints, and the exit code. 0: success; 1: a comparison failed; 2: an error, including a fault of the program
+//! itself; 130: interrupted by Ctrl-C.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use super::{
+    compare, completions, devices, inspect, man, new, pattern, render, sheet, stability, study, texture,
+    verify, version, view,
+};
+use crate::core::error::Result;
+use crate::core::panics;
+
+/// Renders textured scenes with Vulkan compute, with or without a GPU
+#[derive(Parser)]
+#[command(name = "moire", version, long_version = version::long())]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a scene file into one or more pictures
+    Render(Box<render::RenderArgs>),
+    /// Write a scene of your pictures or model, or copy one of the program
+    New(new::NewArgs),
+    /// Show a scene in a browser, refined while one looks, with two settings side by side
+    View(Box<view::ViewArgs>),
+    /// Measure which anti-aliasing method has the smallest error in a given time
+    Study(study::StudyArgs),
+    /// Compare settings in one labelled picture or page
+    Sheet(Box<sheet::SheetArgs>),
+    /// Show what a view needs of its textures, and which settings suit it
+    Inspect(Box<inspect::InspectArgs>),
+    /// Compare two pictures in linear RGB
+    Compare(compare::CompareArgs),
+    /// List the Vulkan devices
+    Devices(devices::DevicesArgs),
+    /// Describe a texture file, and whether it tiles
+    Texture(texture::TextureArgs),
+    /// Show a sample pattern and its power spectrum
+    Pattern(pattern::PatternArgs),
+    /// Compare a device's samplers with the float64 oracle
+    Verify(verify::VerifyArgs),
+    /// Sweep extreme cases on a device, with errors against float64
+    Stability(stability::StabilityArgs),
+    /// Print a script by which a shell completes commands, options and values
+    Completions(completions::CompletionsArgs),
+    /// Print the manual, or write a page for each command
+    Man(man::ManArgs),
+}
+
+/// Runs the command that the arguments name and prints its error.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    super::prepare_process();
+    panics::record();
+    super::exit_code(panics::contain(&"moire", || {
+        let matches = Cli::command().get_matches_from(arguments);
+        let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
+        let own = matches.subcommand().map(|(_, own)| own);
+        panics::contain(&format_args!("moire {}", command.name()), || command.run(own.unwrap_or(&matches)))
+    }))
+}
+
+impl Command {
+    fn name(&self) -> &'static str {
+        match self {
+            Command::Render(_) => "render",
+            Command::New(_) => "new",
+            Command::View(_) => "view",
+            Command::Study(_) => "study",
+            Command::Sheet(_) => "sheet",
+            Command::Inspect(_) => "inspect",
+            Command::Compare(_) => "compare",
+            Command::Devices(_) => "devices",
+            Command::Texture(_) => "texture",
+            Command::Pattern(_) => "pattern",
+            Command::Verify(_) => "verify",
+            Command::Stability(_) => "stability",
+            Command::Completions(_) => "completions",
+            Command::Man(_) => "man",
+        }
+    }
+
+    /// Runs the command. `matches`: its own arguments as they were typed.
+    fn run(self, matches: &ArgMatches) -> Result<ExitCode> {
+        match self {
+            Command::Render(args) => render::run(&args, matches),
+            Command::New(args) => new::run(&args),
+            Command::View(args) => view::run(&args),
+            Command::Study(args) => study::run(&args),
+            Command::Sheet(args) => sheet::run(&args),
+            Command::Inspect(args) => inspect::run(&args),
+            Command::Compare(args) => compare::run(&args),
+            Command::Devices(args) => devices::run(&args),
+            Command::Texture(args) => texture::run(&args),
+            Command::Pattern(args) => pattern::run(&args),
+            Command::Verify(args) => verify::run(&args),
+            Command::Stability(args) => stability::run(&args),
+            Command::Completions(args) => completions::run(&args, Cli::command()),
+            Command::Man(args) => man::run(&args, Cli::command()),
+        }
+    }
+}
