@@ -1,5 +1,6 @@
 //! What a render needs before anything is uploaded. Input: a scene, options, and the backends. Output: open devices among
-//! what is kept, the packed scene with its textures, and an empty film; all are made at the same time, as each of them mostly waits.
+//! what is kept, the packed scene with its textures, and an empty film; all are made at the same time, as each of them
+//! mostly waits.
 
 use std::collections::HashSet;
 use std::sync::{Arc, mpsc};
@@ -86,9 +87,9 @@ fn pack(
     mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<Packed> {
     let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
-    // All first: of several faults, the one of the first texture is told.
     // Before they are read: a file that changes meanwhile is read again.
     let origins: Vec<Origin> = scene.textures.iter().map(|t| Origin::now(t, values)).collect();
+    // All first: of several faults, the one of the first texture is told.
     let textures: Vec<Result<_>> = origins.par_iter().map(|origin| kept.load(origin)).collect();
     let textures = textures.into_iter().collect::<Result<Vec<_>>>()?;
     kept.keep(origins, &textures);

@@ -173,23 +173,22 @@ impl Open<'_> {
     /// Renders a picture of a number of samples, as `moire render` does.
     fn render(&mut self, count: u32, progress: &dyn Progress) -> Result<Made> {
         self.scene.sampling.spp = count;
-        let (film, report) = match &mut self.ready {
-            Ready::Device(session) => session.prepare_sampling(&self.scene)?.render(progress)?,
+        let (film, outcome, seconds, warnings) = match &mut self.ready {
+            Ready::Device(session) => {
+                let (film, report) = session.prepare_sampling(&self.scene)?.render(progress)?;
+                (film, report.outcome, report.seconds.render, report.warnings)
+            }
             Ready::Oracle(packed) => {
                 packed.set_sampling(&self.scene);
                 let clock = Instant::now();
                 let film = Film::new(self.scene.width, self.scene.height, 0);
                 let mut backend = OracleBackend::new(packed)?;
                 let made = integrator(packed, None, false).render(&mut backend, film, progress)?;
-                let samples =
-                    made.outcome.map_or(f64::from(made.film.samples), |outcome| outcome.mean_samples);
-                let seconds = clock.elapsed().as_secs_f64();
-                let estimate = made.outcome.map(|outcome| outcome.estimated_rmse);
-                return Ok(Made { film: made.film, samples, seconds, estimate, warnings: Vec::new() });
+                (made.film, made.outcome, clock.elapsed().as_secs_f64(), Vec::new())
             }
         };
-        let samples = report.outcome.map_or(f64::from(film.samples), |outcome| outcome.mean_samples);
-        let estimate = report.outcome.map(|outcome| outcome.estimated_rmse);
-        Ok(Made { film, samples, seconds: report.seconds.render, estimate, warnings: report.warnings })
+        let samples = outcome.map_or(f64::from(film.samples), |outcome| outcome.mean_samples);
+        let estimate = outcome.map(|outcome| outcome.estimated_rmse);
+        Ok(Made { film, samples, seconds, estimate, warnings })
     }
 }

@@ -1,5 +1,5 @@
-//! What is given as a scene and is a model or a picture. Input: the name of a file, or its first bytes. Output: an error that says what a
-//! scene may be, in place of one about TOML.
+//! What is given as a scene and is a model or a picture. Input: the name of a file, or its first bytes. Output: an error that
+//! says what a scene may be, in place of one about TOML.
 
 use std::path::Path;
 
