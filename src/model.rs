@@ -13,5 +13,6 @@ pub use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 pub use crate::texture::procedural::{Procedural, ProceduralKind};
 pub use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 pub use crate::texture::source::{
-    CubeLayout, Endian, OrientationUse, PlainTexels, ReadOptions, TextureContent, TextureSource, VolumeSource,
+    CubeLayout, Endian, OrientationUse, PlainTexels, ProfileUse, ReadOptions, TextureContent, TextureSource,
+    VolumeSource,
 };

@@ -22,50 +22,67 @@ pub struct DisplayArgs {
     /// Primaries of the picture, with which it is tagged [default: srgb]
     #[arg(long, value_name = "SPACE", value_parser = named_parser(Gamut::NAMES, Gamut::from_name), help_heading = DISPLAY)]
     gamut: Option<Gamut>,
-    /// Bits per channel of PNG files
-    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"], help_heading = DISPLAY)]
-    png_bits: String,
-    /// Quality of JPEG files: 1 (smallest) to 100
-    #[arg(long, value_name = "Q", default_value_t = 95, value_parser = clap::value_parser!(u8).range(1..=100), allow_negative_numbers = true, help_heading = DISPLAY)]
-    jpeg_quality: u8,
+    /// Bits per channel of PNG files [default: 8]
+    #[arg(long, value_name = "BITS", value_parser = ["8", "16"], help_heading = DISPLAY)]
+    png_bits: Option<String>,
+    /// Quality of JPEG files: 1 (smallest) to 100 [default: 95]
+    #[arg(long, value_name = "Q", value_parser = clap::value_parser!(u8).range(1..=100), allow_negative_numbers = true, help_heading = DISPLAY)]
+    jpeg_quality: Option<u8>,
 }
 
 impl DisplayArgs {
     /// Returns how pictures are written.
     pub fn write_options(&self) -> WriteOptions<'static> {
-        let default = DisplayTransform::default();
+        let (written, default) = (WriteOptions::default(), DisplayTransform::default());
+        let png_bits = self.png_bits.as_deref().map(|bits| if bits == "16" { 16 } else { 8 });
         WriteOptions {
-            png_bits: if self.png_bits == "16" { 16 } else { 8 },
-            jpeg_quality: self.jpeg_quality,
+            png_bits: png_bits.unwrap_or(written.png_bits),
+            jpeg_quality: self.jpeg_quality.unwrap_or(written.jpeg_quality),
             display: DisplayTransform {
                 exposure: self.exposure.unwrap_or(default.exposure),
                 white_balance: self.white_balance,
                 tone_map: self.tone_map.unwrap_or(default.tone_map),
                 gamut: self.gamut.unwrap_or(default.gamut),
             },
-            ..WriteOptions::default()
+            ..written
         }
     }
 
-    /// Returns a warning if an option concerns no output, as all of them hold linear light.
-    pub fn without_effect(&self, outputs: &Outputs) -> Option<String> {
-        let options = [
+    /// Returns warnings for options that concern no output.
+    pub fn without_effect(&self, outputs: &Outputs, has_beauty: bool) -> Vec<String> {
+        let shown = [
             ("--exposure", self.exposure.is_some()),
             ("--white-balance", self.white_balance.is_some()),
             ("--tone-map", self.tone_map.is_some()),
             ("--gamut", self.gamut.is_some()),
         ];
-        let given: Vec<&str> = options.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
-        let is_linear = |format: Format| matches!(format, Format::Exr | Format::Hdr);
-        if given.is_empty() || !outputs.formats().all(is_linear) {
-            return None;
-        }
-        Some(format!(
-            "{} {} no effect: OpenEXR and Radiance HDR keep linear light; PNG, JPEG and TIFF show it",
-            given.join(", "),
-            verb(given.len(), "has", "have")
-        ))
+        let shows = |format: Format| !matches!(format, Format::Exr | Format::Hdr);
+        let why = if has_beauty {
+            "OpenEXR and Radiance HDR keep linear light; PNG, JPEG and TIFF show it"
+        } else {
+            "false colours stand for numbers"
+        };
+        let bits = [("--png-bits", self.png_bits.is_some())];
+        let quality = [("--jpeg-quality", self.jpeg_quality.is_some())];
+        let groups = [
+            (&shown[..], has_beauty && outputs.formats().any(shows), why),
+            (&bits[..], outputs.formats().any(|format| format == Format::Png), "no output is a PNG file"),
+            (
+                &quality[..],
+                outputs.formats().any(|format| format == Format::Jpeg),
+                "no output is a JPEG file",
+            ),
+        ];
+        let without = groups.into_iter().filter(|(_, concerned, _)| !concerned);
+        without.filter_map(|(options, _, why)| warning(options, why)).collect()
     }
+}
+
+/// Returns that the given ones of some options have no effect.
+fn warning(options: &[(&str, bool)], why: &str) -> Option<String> {
+    let given: Vec<&str> = options.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+    let verb = verb(given.len(), "has", "have");
+    (!given.is_empty()).then(|| format!("{} {verb} no effect: {why}", given.join(", ")))
 }
 
 fn stops(text: &str) -> Result<f64, String> {

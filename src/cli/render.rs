@@ -25,8 +25,10 @@ use crate::render::{self, Kept, On, Options, Picture, Tuning};
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
 use crate::scene::{self, SceneFile, advice};
-use crate::texture::read_file::is_turned;
-use crate::texture::source::OrientationUse;
+use crate::texture::color_profile::ColorProfile;
+use crate::texture::data::ColorSpace;
+use crate::texture::read_file::{color_profile, is_turned};
+use crate::texture::source::{OrientationUse, ProfileUse, TextureSource};
 
 /// Renders. `matches`: the arguments as they were typed.
 pub fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<ExitCode> {
@@ -207,7 +209,7 @@ impl<'a> Job<'a> {
             warnings.push(format!("{fault}; --method shader reads the right ones"));
         }
         warnings.splice(..0, advice::of_scene(scene));
-        warnings.extend(self.args.display.without_effect(&self.outputs));
+        warnings.extend(self.args.display.without_effect(&self.outputs, self.args.layers.has_beauty()));
         warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
         if self.has_goal() && self.args.overrides.names_spp() {
             warnings
@@ -234,7 +236,7 @@ pub(super) fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     })
 }
 
-/// Returns lines on how each texture is stored, and which were rotated.
+/// Prints how each texture is stored, and what was changed as its files say: orientation and colours.
 fn say_textures(scene: &Scene, lines: &[String]) {
     for line in lines {
         super::notify(format_args!("texture {line}"));
@@ -243,6 +245,19 @@ fn say_textures(scene: &Scene, lines: &[String]) {
         for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
             let (name, file) = (&texture.name, file.display());
             super::notify(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
+        }
+    }
+    let is_managed = |t: &&TextureSource| {
+        t.color_space == ColorSpace::Srgb && t.reading.color_profile == ProfileUse::Apply
+    };
+    for texture in scene.textures.iter().filter(is_managed) {
+        for file in texture.content.files() {
+            if let Some(profile) = color_profile(file).filter(ColorProfile::is_converted) {
+                let (texture, file, name) = (&texture.name, file.display(), &profile.name);
+                super::notify(format_args!(
+                    "texture \"{texture}\": the colours of {file} were converted from {name} to sRGB"
+                ));
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use serde_json::{Value, json};
 
 use super::named_parser;
-use super::texture_levels::Extra;
+use super::texture_levels::{Extra, Profile};
 use crate::core::counted::{counted, plural};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
@@ -18,8 +18,8 @@ use crate::texture::analysis::{Analysis, AxisAnalysis, Channel, Seam, Verdict, a
 use crate::texture::analysis_levels::{analyse_levels, analyse_normals};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::decode::texture_of;
-use crate::texture::read_file::{self, Texels};
-use crate::texture::source::{OrientationUse, ReadOptions};
+use crate::texture::read_file::{self, FileFacts, Picture};
+use crate::texture::source::{OrientationUse, ProfileUse, ReadOptions};
 
 /// Describe a texture file: size, format, range and mean, levels, non-finite texels, whether it tiles
 ///
@@ -44,6 +44,10 @@ pub struct TextureArgs {
     #[arg(long, value_name = "USE", default_value = "apply",
           value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
     pub orientation: OrientationUse,
+    /// Convert the colours of a file with another colour profile than sRGB, if it is read as srgb
+    #[arg(long, value_name = "USE", default_value = "apply",
+          value_parser = named_parser(ProfileUse::NAMES, ProfileUse::from_name))]
+    pub color_profile: ProfileUse,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -54,7 +58,11 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
-    let reading = ReadOptions { orientation: args.orientation, layer: args.layer.clone() };
+    let reading = ReadOptions {
+        orientation: args.orientation,
+        color_profile: args.color_profile,
+        layer: args.layer.clone(),
+    };
     let mut picture = read_file::read_any(&args.file, &reading)?;
     for note in std::mem::take(&mut picture.notes) {
         super::notify(format_args!("warning: {note}"));
@@ -71,18 +79,18 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         // As many bits as the file has, so that its values are preserved.
         let png_bits = if picture.texels.format.component() == Component::Unorm16 { 16 } else { 8 };
         output::write(
-            &repeated(&picture.texels, &args.file)?,
+            &repeated(&picture, &args.file)?,
             path,
             &WriteOptions { png_bits, ..WriteOptions::default() },
         )?;
     }
-    let facts = std::mem::take(&mut picture.facts);
-    let (encoding, stated) = (facts.encoding.clone(), facts.color_space);
-    let dimension = facts.dimension;
-    picture.facts = facts;
+    let FileFacts { encoding, color_space: stated, dimension, profile, .. } = &picture.facts;
+    let (encoding, stated, dimension, profile) = (encoding.clone(), *stated, *dimension, profile.clone());
+    let clipped = if color_space == ColorSpace::Srgb { picture.apply_profile(&args.file) } else { None };
+    let profile = profile.map(|stated| Profile { stated, clipped });
     let texture = texture_of(&args.file.display().to_string(), dimension, color_space, picture);
     let (levels, normals) = (analyse_levels(&texture), analyse_normals(&texture));
-    let extra = Extra { encoding, stated, levels, normals };
+    let extra = Extra { encoding, profile, stated, levels, normals };
     let analysis = analyse_all(&texture);
     let text = if args.json {
         json(args, &texture, &analysis, &extra)?
@@ -108,7 +116,8 @@ const MAX_OUT: u32 = 65_536;
 /// Returns two by two copies, of several slices or faces those of the first. 8- and 16-bit values are decoded from sRGB whatever their meaning as
 /// a texture: writing encodes them again, so that the picture looks like the file. Float values are
 /// unchanged.
-fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
+fn repeated(picture: &Picture, file: &Path) -> Result<Film> {
+    let texels = &picture.texels;
     let (width, height) = (texels.width * 2, texels.height * 2);
     if width.max(height) > MAX_OUT {
         return Err(Error::with_help(
@@ -123,7 +132,7 @@ fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
             "leave out --out, or scale the texture down",
         )
     })?;
-    let film = film_of(texels);
+    let film = film_of(picture);
     for row in film.pixels.chunks_exact(texels.width as usize).take(texels.height as usize) {
         pixels.extend_from_slice(row);
         pixels.extend_from_slice(row);
@@ -139,6 +148,7 @@ fn json(args: &TextureArgs, texture: &TextureData, analysis: &Analysis, extra: &
         "dimension": texture.dimension.name(),
         "depth": texture.depth,
         "encoding": extra.encoding,
+        "color_profile": extra.profile_json(),
         "stated_color_space": extra.stated.map(ColorSpace::name),
         "format": texture.format.name(),
         "file_channels": texture.file_channels,

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use crate::core::counted::counted;
 use crate::texture::analysis::channel_names;
 use crate::texture::analysis_levels::{LevelAnalysis, NormalAnalysis};
+use crate::texture::color_profile::ColorProfile;
 use crate::texture::data::{ColorSpace, Dimension, TextureData};
 use crate::texture::mips::level_count;
 
@@ -13,9 +14,35 @@ use crate::texture::mips::level_count;
 pub(super) struct Extra {
     /// The formats of file and texels, and the meaning of values that the file states.
     pub encoding: Option<String>,
+    pub profile: Option<Profile>,
     pub stated: Option<ColorSpace>,
     pub levels: Vec<LevelAnalysis>,
     pub normals: Option<NormalAnalysis>,
+}
+
+/// The colour profile of a file, and what became of it.
+pub(super) struct Profile {
+    pub stated: ColorProfile,
+    /// The share of the texels that are outside of sRGB, if colours were converted.
+    pub clipped: Option<f64>,
+}
+
+impl Profile {
+    /// Returns a line of text.
+    fn line(&self) -> String {
+        let name = &self.stated.name;
+        match (self.stated.fault(), self.clipped) {
+            (Some(why), _) => format!("{name}; it {why} and is not applied"),
+            (None, Some(share)) => {
+                format!(
+                    "{name}, converted to sRGB; {:.2} % of the texels are outside and clipped",
+                    100.0 * share
+                )
+            }
+            (None, None) if !self.stated.is_converted() => format!("{name}, whose colours are those of sRGB"),
+            (None, None) => format!("{name}; it applies to color_space \"srgb\""),
+        }
+    }
 }
 
 impl Extra {
@@ -27,6 +54,7 @@ impl Extra {
                 self.stated.map_or("says nothing of its color space".into(), |space| format!("says {space}"));
             lines.push(("encoding".into(), format!("{encoding}; {stated}")));
         }
+        lines.extend(self.profile.as_ref().map(|profile| ("profile".into(), profile.line())));
         if self.levels.len() > 1 {
             let (stored, whole) = (self.levels.len(), level_count(texture) as usize);
             let end = if stored == whole { "down to one texel".into() } else { format!("of {whole}") };
@@ -42,6 +70,18 @@ impl Extra {
             lines.push(("normals".into(), normal_line(normals, texture)));
         }
         lines
+    }
+
+    /// Returns the colour profile for JSON.
+    pub fn profile_json(&self) -> Value {
+        self.profile.as_ref().map_or(Value::Null, |Profile { stated, clipped, .. }| {
+            json!({
+                "name": stated.name,
+                "is_srgb": !stated.is_converted() && stated.fault().is_none(),
+                "fault": stated.fault(),
+                "clipped": clipped,
+            })
+        })
     }
 
     /// Returns the levels for JSON.

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use jpeg_encoder::{Encoder, ImageBuffer, JpegColorType, rgb_to_ycbcr};
+use jpeg_encoder::{Encoder, ImageBuffer, JpegColorType, SamplingFactor, rgb_to_ycbcr};
 
 use super::display::Prepared;
 use super::quantise::srgb8;
@@ -53,6 +53,8 @@ pub(super) fn write(film: &Film, options: &WriteOptions, to: &mut dyn Write) -> 
     };
     let comments = options.record.map_or(Vec::new(), segments);
     let mut encoder = Encoder::new(Insert::new(to, HEADER_BYTES, comments), options.jpeg_quality);
+    // Below a quality of 90, the encoder would halve the resolution of colours.
+    encoder.set_sampling_factor(SamplingFactor::F_1_1);
     encoder
         .add_icc_profile(&icc::profile(options.display.gamut))
         .and_then(|()| {

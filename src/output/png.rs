@@ -4,7 +4,8 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use flate2::{Compress, Compression, FlushCompress};
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
 use png::EncodingError;
 use png::chunk::IDAT;
 use rayon::prelude::*;
@@ -84,15 +85,15 @@ struct Band {
     rows: Vec<u8>,
     filters: Filters,
     filtered: Vec<u8>,
-    deflate: Compress,
-    compressed: Vec<u8>,
+    encoder: DeflateEncoder<Vec<u8>>,
+    compressed: io::Result<Vec<u8>>,
 }
 
 impl Band {
     fn new() -> Band {
-        let [rows, filtered, compressed] = [const { Vec::new() }; 3];
-        let deflate = Compress::new(Compression::fast(), false);
-        Band { rows, filters: Filters::default(), filtered, deflate, compressed }
+        let encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
+        let [rows, filtered] = [const { Vec::new() }; 2];
+        Band { rows, filters: Filters::default(), filtered, encoder, compressed: Ok(Vec::new()) }
     }
 
     /// Quantises, filters and compresses some rows. The compressed bytes end at a whole byte, so that those of other
@@ -113,23 +114,29 @@ impl Band {
         {
             self.filters.append_best(above, row, pixel_bytes(samples.bits), &mut self.filtered);
         }
-        let last = rows.end == film.height as usize;
-        let flush = if last { FlushCompress::Finish } else { FlushCompress::Sync };
-        self.deflate.reset();
-        self.compressed.clear();
-        let mut done = 0;
-        loop {
-            // Room is left only once nothing more is to come.
-            self.compressed.reserve(self.filtered.len() / 2 + 1024);
-            let before = self.deflate.total_in();
-            let status = self.deflate.compress_vec(&self.filtered[done..], &mut self.compressed, flush);
-            done += (self.deflate.total_in() - before) as usize;
-            let has_room = self.compressed.len() < self.compressed.capacity();
-            if status.is_err() || (has_room && done == self.filtered.len()) {
-                break;
-            }
-        }
+        let is_last = rows.end == film.height as usize;
+        let to = std::mem::replace(&mut self.compressed, Ok(Vec::new())).unwrap_or_default();
+        self.compressed = deflated(&mut self.encoder, &self.filtered, is_last, to);
     }
+}
+
+/// Compresses some bytes into an emptied buffer, which it returns. They end at a whole byte, and end the stream if they are
+/// the last ones.
+fn deflated(
+    encoder: &mut DeflateEncoder<Vec<u8>>,
+    bytes: &[u8],
+    is_last: bool,
+    mut to: Vec<u8>,
+) -> io::Result<Vec<u8>> {
+    to.clear();
+    encoder.reset(to)?;
+    encoder.write_all(bytes)?;
+    if is_last {
+        encoder.try_finish()?;
+    } else {
+        encoder.flush()?;
+    }
+    Ok(std::mem::take(encoder.get_mut()))
 }
 
 /// Writes the pixels as one chunk a band; the first one begins with the head of the stream, one more ends it.
@@ -147,11 +154,10 @@ fn write_large<W: Write>(
         Band::new,
         |rows, band| band.encode(film, samples, rows),
         |band| {
-            if band.deflate.total_in() != band.filtered.len() as u64 {
-                return Err(io::Error::other("some rows cannot be compressed").into());
-            }
+            let failed = |e: &io::Error| io::Error::other(format!("some rows cannot be compressed: {e}"));
+            let compressed = band.compressed.as_ref().map_err(failed)?;
             checksum.write(&band.filtered);
-            writer.write_chunk(IDAT, &band.compressed)
+            writer.write_chunk(IDAT, compressed)
         },
     )?;
     writer.write_chunk(IDAT, &checksum.finish().to_be_bytes())
@@ -177,6 +183,26 @@ mod tests {
             };
         }
         film
+    }
+
+    /// The compressor holds back what did not fit into its buffer when a block ended there, and gives it only when asked
+    /// again: at some of these lengths.
+    #[test]
+    fn bands_are_compressed_to_their_last_byte_wherever_blocks_end() {
+        let mut rng = fastrand::Rng::with_seed(5);
+        let mut encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
+        for length in (57_000..63_000).step_by(100) {
+            for is_last in [false, true] {
+                let bytes: Vec<u8> = (0..length).map(|_| rng.u8(..20)).collect();
+                let compressed = deflated(&mut encoder, &bytes, is_last, Vec::new()).unwrap();
+                let mut read = Vec::with_capacity(length + 1);
+                let mut decoder = flate2::Decompress::new(false);
+                let status = decoder.decompress_vec(&compressed, &mut read, flate2::FlushDecompress::None);
+                assert!(read == bytes, "{} of {length} bytes", read.len());
+                let ended = matches!(status, Ok(flate2::Status::StreamEnd));
+                assert_eq!((ended, decoder.total_in()), (is_last, compressed.len() as u64), "{length}");
+            }
+        }
     }
 
     #[test]

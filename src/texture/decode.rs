@@ -63,9 +63,9 @@ pub(super) fn read_checked(
     check_picture(read_file::read_as(path, reading)?, color_space, values, path)
 }
 
-/// Returns a picture whose values are as they have to be, in all levels.
+/// Returns a picture whose values are as they have to be, in all levels; colours of another space become those of sRGB.
 pub(super) fn check_picture(
-    picture: Picture,
+    mut picture: Picture,
     color_space: ColorSpace,
     values: AllowedFloats,
     path: &Path,
@@ -73,6 +73,9 @@ pub(super) fn check_picture(
     check_meaning(picture.texels.format, color_space, path)?;
     check_values(&picture.texels, values, path)?;
     picture.facts.levels.iter().try_for_each(|level| check_values(level, values, path))?;
+    if color_space == ColorSpace::Srgb {
+        picture.apply_profile(path);
+    }
     Ok(picture)
 }
 
@@ -130,6 +133,19 @@ pub(super) fn check_values(texels: &Texels, allowed: AllowedFloats, path: &Path)
 }
 
 impl Picture {
+    /// Converts codes to those of sRGB, if the file states that they mean other colours; a profile that cannot be applied is
+    /// noted. Returns the share of the texels that are outside of sRGB and are clipped, if any were converted.
+    pub(crate) fn apply_profile(&mut self, path: &Path) -> Option<f64> {
+        let profile = self.facts.profile.take()?;
+        if let Some(why) = profile.fault() {
+            let (path, name) = (path.display(), &profile.name);
+            self.notes.push(format!(
+                "{path}: its colour profile ({name}) {why}; its colours are read as those of sRGB"
+            ));
+        }
+        profile.convert(&mut self.texels)
+    }
+
     /// Reverses the row order within each slice of each level.
     pub(super) fn reverse_rows(&mut self) {
         for level in std::iter::once(&mut self.texels).chain(&mut self.facts.levels) {

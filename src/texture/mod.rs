@@ -8,6 +8,7 @@ mod analysis_rows;
 mod analysis_steps;
 #[allow(missing_docs)]
 mod analysis_verdict;
+pub(crate) mod color_profile;
 mod container;
 mod cube;
 mod cutout;
@@ -29,6 +30,7 @@ pub(crate) mod open_file;
 pub mod orientation;
 pub mod prefix_sums;
 pub mod procedural;
+pub(crate) mod profile_colors;
 mod read_exr;
 pub(crate) mod read_file;
 mod read_hdr;

@@ -1,10 +1,11 @@
 //! Reads a picture file into texels as stored: 8 bits stay 8, 16 stay 16, floats stay floats, grey
-//! stays grey, three channels become four with opaque alpha. Colour profiles and gamma are ignored.
+//! stays grey, three channels become four with opaque alpha. A colour profile is returned beside them.
 //! Errors name the file and state what to do.
 
 use std::io::{BufReader, Cursor, Read, Seek};
 use std::path::Path;
 
+use super::color_profile::ColorProfile;
 use super::data::{ColorSpace, Dimension, TexelFormat};
 use super::formats::{PictureFormat, Reader, supported};
 use super::open_file::open;
@@ -12,7 +13,7 @@ use super::orientation::orientation_of;
 use super::read_exr;
 pub use super::read_exr::ExrWindow;
 use super::sniff::{self, Content};
-use super::source::{OrientationUse, ReadOptions};
+use super::source::{OrientationUse, ProfileUse, ReadOptions};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
 use crate::core::panics;
@@ -51,6 +52,8 @@ pub struct FileFacts {
     pub levels: Vec<Texels>,
     /// The meaning of the values, if the file states it.
     pub color_space: Option<ColorSpace>,
+    /// The colours that its codes mean, if the file states them.
+    pub profile: Option<ColorProfile>,
     /// The formats of the file and of its texels, by name, where the texels do not tell them.
     pub encoding: Option<String>,
 }
@@ -63,6 +66,7 @@ impl Default for FileFacts {
             depth: 1,
             levels: Vec::new(),
             color_space: None,
+            profile: None,
             encoding: None,
         }
     }
@@ -161,7 +165,10 @@ fn read_by_content(
         return Err(no_layers(path, format, layer));
     }
     let file = read_whole(source, length, path)?;
-    let picture = read(&file, path)?;
+    let mut picture = read(&file, path)?;
+    if reading.color_profile == ProfileUse::Apply {
+        picture.facts.profile = ColorProfile::of_file(&file, format);
+    }
     let orientation = match reading.orientation {
         OrientationUse::Apply => orientation_of(&file, format),
         OrientationUse::Ignore => None,
@@ -169,7 +176,8 @@ fn read_by_content(
     drop(file);
     let Some(orientation) = orientation else { return Ok(picture) };
     check_memory(path, picture.texels.bytes.len())?;
-    Ok(Picture::noted(orientation.apply(picture.texels), picture.notes))
+    let Picture { texels, notes, facts, .. } = picture;
+    Ok(Picture { facts, ..Picture::noted(orientation.apply(texels), notes) })
 }
 
 fn read_whole(mut source: impl Read, length: usize, path: &Path) -> Result<Vec<u8>> {
@@ -195,14 +203,24 @@ pub(super) fn is_container(path: &Path) -> bool {
 
 /// Returns true if the file's metadata states that the picture is stored rotated or mirrored.
 pub fn is_turned(path: &Path) -> bool {
-    let Ok(mut source) = open(path) else { return false };
-    match identify(&mut source) {
-        Ok(Content::Picture(PictureFormat::OpenExr)) => false,
-        Ok(Content::Picture(format)) => {
+    stated(path, orientation_of).is_some()
+}
+
+/// Returns the colour profile that the file states.
+pub fn color_profile(path: &Path) -> Option<ColorProfile> {
+    stated(path, ColorProfile::of_file)
+}
+
+/// Returns what a picture file states of itself, by a function of its bytes.
+fn stated<T>(path: &Path, of_file: fn(&[u8], PictureFormat) -> Option<T>) -> Option<T> {
+    let mut source = open(path).ok()?;
+    match identify(&mut source).ok()? {
+        // A large file in parts, which states none of these things.
+        Content::Picture(PictureFormat::OpenExr) | Content::Other(_) => None,
+        Content::Picture(format) => {
             let length = source.length().map_or(0, |length| length as usize);
-            read_whole(source, length, path).is_ok_and(|file| orientation_of(&file, format).is_some())
+            of_file(&read_whole(source, length, path).ok()?, format)
         }
-        _ => false,
     }
 }
 

@@ -68,6 +68,25 @@ pub(super) fn exif(jpeg: &[u8]) -> Option<&[u8]> {
         .find_map(|(_, segment)| segment.strip_prefix(b"Exif\0\0"))
 }
 
+/// Returns the ICC profile, whose parts are numbered from 1 (ICC.1:2022, B.4); `None` if parts are missing.
+pub(super) fn color_profile(jpeg: &[u8]) -> Option<Vec<u8>> {
+    const APP2: u8 = 0xe2;
+    let before_scans = segments(jpeg).take_while(|(marker, _)| *marker != START_OF_SCAN);
+    let mut parts: Vec<(u8, u8, &[u8])> = before_scans
+        .filter(|(marker, _)| *marker == APP2)
+        .filter_map(|(_, segment)| match segment.strip_prefix(b"ICC_PROFILE\0")? {
+            [number, of, part @ ..] => Some((*number, *of, part)),
+            _ => None,
+        })
+        .collect();
+    parts.sort_unstable_by_key(|(number, ..)| *number);
+    let whole = parts
+        .iter()
+        .enumerate()
+        .all(|(i, (number, of, _))| (usize::from(*number), usize::from(*of)) == (i + 1, parts.len()));
+    (whole && !parts.is_empty()).then(|| parts.iter().flat_map(|(.., part)| *part).copied().collect())
+}
+
 fn is_frame(marker: u8) -> bool {
     // c4, c8 and cc define tables or are reserved; f7 is that of ISO/IEC 14495.
     matches!(marker, 0xc0..=0xcf | 0xf7) && !matches!(marker, 0xc4 | 0xc8 | 0xcc)

@@ -1,10 +1,11 @@
 //! Reads PNG files (PNG specification, third edition). Its chunks are scanned first: a file that
 //! lacks only its end is read with a note, and Apple's proprietary variant is refused by name.
 
-use std::io::Cursor;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 use flate2::Crc;
+use flate2::read::ZlibDecoder;
 use png::{BitDepth, DecodingError, Transformations};
 
 use super::data::Component;
@@ -15,6 +16,8 @@ use crate::core::error::Result;
 const SIGNATURE_BYTES: usize = 8;
 /// The bytes of a chunk's length, name and checksum.
 const CHUNK_BYTES: usize = 12;
+/// The size of an ICC profile beyond which it is cut; those of printers have a few MB.
+const MAX_PROFILE_BYTES: u64 = 16 << 20;
 
 pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     if file.get(SIGNATURE_BYTES + 4..SIGNATURE_BYTES + 8) == Some(b"CgBI") {
@@ -73,6 +76,26 @@ fn fault(error: DecodingError) -> Fault {
 /// Returns the Exif data, which may precede or follow the pixels.
 pub(super) fn exif(png: &[u8]) -> Option<&[u8]> {
     chunks(png).find(|chunk| chunk.name == b"eXIf").map(|chunk| chunk.data)
+}
+
+/// Returns the code points of the chunk cICP: primaries, transfer function, matrix, full range.
+pub(super) fn code_points(png: &[u8]) -> Option<[u8; 4]> {
+    before_pixels(png, b"cICP")?.try_into().ok()
+}
+
+/// Returns the ICC profile: behind its name and a byte for the method, by Deflate. Of a damaged one, returns what there is.
+pub(super) fn color_profile(png: &[u8]) -> Option<Vec<u8>> {
+    let data = before_pixels(png, b"iCCP")?;
+    let name = data.iter().position(|byte| *byte == 0)?;
+    let mut profile = Vec::new();
+    // Damage shows when the profile is read.
+    let _ = ZlibDecoder::new(data.get(name + 2..)?).take(MAX_PROFILE_BYTES).read_to_end(&mut profile);
+    Some(profile)
+}
+
+/// Returns the data of a chunk that precedes the pixels.
+fn before_pixels<'a>(png: &'a [u8], name: &[u8; 4]) -> Option<&'a [u8]> {
+    chunks(png).take_while(|chunk| chunk.name != b"IDAT").find(|c| c.name == name).map(|c| c.data)
 }
 
 struct Chunk<'a> {

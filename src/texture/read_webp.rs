@@ -48,14 +48,24 @@ fn fault(error: DecodingError) -> Fault {
 
 /// Returns the Exif data.
 pub(super) fn exif(webp: &[u8]) -> Option<&[u8]> {
+    let data = chunk(webp, b"EXIF")?;
+    Some(data.strip_prefix(b"Exif\0\0").unwrap_or(data))
+}
+
+/// Returns the ICC profile.
+pub(super) fn color_profile(webp: &[u8]) -> Option<&[u8]> {
+    chunk(webp, b"ICCP")
+}
+
+/// Returns the data of the first chunk of this name.
+fn chunk<'a>(webp: &'a [u8], name: &[u8; 4]) -> Option<&'a [u8]> {
     let mut at = RIFF_BYTES;
     loop {
         let header = webp.get(at..at.checked_add(CHUNK_BYTES)?)?;
         let length = u32::from_le_bytes(*header.last_chunk()?) as usize;
         let end = (at + CHUNK_BYTES).checked_add(length)?;
-        if header.starts_with(b"EXIF") {
-            let data = webp.get(at + CHUNK_BYTES..end)?;
-            return Some(data.strip_prefix(b"Exif\0\0").unwrap_or(data));
+        if header.starts_with(name) {
+            return webp.get(at + CHUNK_BYTES..end);
         }
         at = end.checked_add(length % 2)?;
     }

@@ -31,18 +31,20 @@ pub struct TextureSource {
     pub mip_kernel: MipKernel,
 }
 
-/// The options of reading a file: the layer and the orientation.
+/// The options of reading a file: orientation, colour profile, and layer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReadOptions {
     /// The treatment of pictures that are stored rotated.
     pub orientation: OrientationUse,
+    /// The treatment of pictures whose colours are not those of sRGB.
+    pub color_profile: ProfileUse,
     /// For OpenEXR files, a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
 }
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        ReadOptions { orientation: OrientationUse::Apply, layer: None }
+        ReadOptions { orientation: OrientationUse::Apply, color_profile: ProfileUse::Apply, layer: None }
     }
 }
 
@@ -52,6 +54,16 @@ named_enum! {
         /// The texels are turned upright, as image viewers do.
         Apply = "apply",
         /// The texels stay as stored.
+        Ignore = "ignore",
+    }
+}
+
+named_enum! {
+    /// The treatment of a colour profile (ICC, cICP) of a file that is read as sRGB.
+    pub enum ProfileUse {
+        /// Colours are converted to sRGB, as image viewers do.
+        Apply = "apply",
+        /// Codes are read as those of sRGB.
         Ignore = "ignore",
     }
 }

@@ -14,7 +14,7 @@ use moire::{SaveOptions, model::Camera};
 use crate::support::{gradient, told};
 
 pub const SCREEN: [Format; 3] = [Format::Png, Format::Jpeg, Format::Tiff];
-const NEUTRAL: DisplayTransform =
+pub const NEUTRAL: DisplayTransform =
     DisplayTransform { exposure: 0.0, white_balance: None, tone_map: ToneMap::None, gamut: Gamut::Srgb };
 
 /// Returns the 16-bit values of a PNG of one pixel, in parts of 1.

@@ -15,6 +15,7 @@ mod browser;
 mod child;
 mod circles;
 mod cli;
+mod color_profile;
 mod cone;
 mod containers;
 mod data;

@@ -147,6 +147,25 @@ fn jpeg_of_a_flat_picture_is_within_two_codes() {
     }
 }
 
+/// Colours of single pixels stay where they are at each quality: halved in resolution, they would be the mean of two.
+#[test]
+fn jpeg_keeps_the_resolution_of_colors_at_every_quality() {
+    let mut film = Film::new(32, 32, 1);
+    for (i, pixel) in film.pixels.iter_mut().enumerate() {
+        // Red and blue of equal luma.
+        *pixel = if i % 2 == 0 { [0.4, 0.05, 0.05] } else { [0.05, 0.12, 0.6] };
+    }
+    for jpeg_quality in [60, 80, 89, 90] {
+        let folder = tempdir().unwrap();
+        let path = folder.path().join("a.jpg");
+        write(&film, &path, &WriteOptions { jpeg_quality, ..WriteOptions::default() }).unwrap();
+        let texels = stored(&path).texels;
+        let redness = |x: usize| i32::from(texels[4 * x]) - i32::from(texels[4 * x + 2]);
+        let contrast = (0..16).map(|x| redness(2 * x) - redness(2 * x + 1)).sum::<i32>() / 16;
+        assert!(contrast > 150, "quality {jpeg_quality}: {contrast}");
+    }
+}
+
 #[test]
 fn unknown_and_missing_endings_list_the_known_ones() {
     let folder = tempdir().unwrap();

@@ -16,7 +16,7 @@ use moire::internal::scene::model::*;
 use moire::internal::scene::{load, parse};
 use moire::internal::texture::data::ColorSpace;
 use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
-use moire::internal::texture::source::{OrientationUse, ReadOptions};
+use moire::internal::texture::source::{OrientationUse, ProfileUse, ReadOptions};
 
 use crate::support::thread_seconds;
 
@@ -59,6 +59,7 @@ name = "ground"
 file = "textures/grass.png"
 color_space = "srgb"
 orientation = "ignore"
+color_profile = "ignore"
 layer = "diffuse"
 flip_v = true
 
@@ -213,7 +214,11 @@ fn every_key_of_a_full_scene_arrives() {
     let [ground, plain] = scene.textures.as_slice() else { panic!("two textures") };
     assert_eq!(ground.content.files(), ["scenes/textures/grass.png"].map(Path::new));
     assert_eq!((ground.color_space, ground.flip_v), (ColorSpace::Srgb, true));
-    let reading = ReadOptions { orientation: OrientationUse::Ignore, layer: Some("diffuse".into()) };
+    let reading = ReadOptions {
+        orientation: OrientationUse::Ignore,
+        color_profile: ProfileUse::Ignore,
+        layer: Some("diffuse".into()),
+    };
     assert_eq!((ground.color_space_stated, &ground.reading), (true, &reading));
     assert_eq!(plain.content.files(), ["/absolute/plain.png"].map(Path::new));
 
@@ -291,7 +296,7 @@ fn every_key_listed_as_allowed_is_read() {
     let material = "[[texture]]\nname = 't'\nfile = 't'\n[[material]]\nname = 'm'\n";
     let sections = [
         ("[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 60\n", 10),
-        ("[[texture]]\nname = 'x'\nfile = 'x'\n", 25),
+        ("[[texture]]\nname = 'x'\nfile = 'x'\n", 26),
         ("[[texture]]\nname = 'x'\n[texture.volume]\nfile = 'x'\nsize = [1, 1, 1]\nformat = 'grey8'\n", 5),
         ("[[sampler]]\nname = 'x'\n", 9),
         ("[[material]]\nname = 'x'\n", 30),

@@ -215,6 +215,7 @@ fn json_is_one_object_with_the_documented_fields() {
     let fields = [
         "bytes",
         "channels",
+        "color_profile",
         "color_space",
         "depth",
         "dimension",

@@ -1,5 +1,5 @@
-//! Reads any picture file as linear RGB: 8- and 16-bit values are decoded from sRGB, float values
-//! are linear; grey is replicated, alpha ignored. NaN is allowed: the comparison counts it.
+//! Reads any picture file as linear RGB: 8- and 16-bit values are decoded from sRGB, or as the colour profile of the file
+//! says, float values are linear; grey is replicated, alpha ignored. NaN is allowed: the comparison counts it.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use crate::core::color::srgb_table;
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::texture::data::Component;
-use crate::texture::read_file::{self, ExrWindow, Texels};
+use crate::texture::read_file::{self, ExrWindow, Picture};
 use crate::texture::source::ReadOptions;
 
 /// Reads a picture. `samples` is 0, because a file does not state the number of samples per pixel.
@@ -18,36 +18,48 @@ pub fn read_picture(path: &Path) -> Result<Film> {
 /// Reads a picture with its placement in the file's display window.
 pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
     let picture = read_file::read_window(path, &ReadOptions::default(), ExrWindow::Data)?;
-    Ok((film_of(&picture.texels), picture.placement))
+    Ok((film_of(&picture), picture.placement))
 }
 
-/// Converts the texels of a file to a film.
-pub(crate) fn film_of(texels: &Texels) -> Film {
-    let channels = texels.format.channels();
-    let pixels = match texels.format.component() {
-        Component::Unorm8 => {
+/// Converts the texels of a file to a film. Colours that a profile places outside of sRGB are kept.
+pub(crate) fn film_of(picture: &Picture) -> Film {
+    let Picture { texels, facts, .. } = picture;
+    let (channels, component) = (texels.format.channels(), texels.format.component());
+    let bytes = &texels.bytes;
+    let profile = facts.profile.as_ref().and_then(|profile| profile.colors(component));
+    let code8 = |[code]: [u8; 1]| usize::from(code);
+    let code16 = |code: [u8; 2]| usize::from(u16::from_ne_bytes(code));
+    let pixels = match (component, profile) {
+        (Component::Unorm8, Some(colors)) => {
+            pixels::<1>(bytes, channels, |t| colors.linear(t.map(code8)).into())
+        }
+        (Component::Unorm16, Some(colors)) => {
+            pixels::<2>(bytes, channels, |t| colors.linear(t.map(code16)).into())
+        }
+        (Component::Unorm8, None) => {
             let table = srgb_table(256);
-            pixels::<1>(&texels.bytes, channels, |[v]| table[usize::from(v)])
+            pixels::<1>(bytes, channels, |t| t.map(|code| table[code8(code)]))
         }
-        Component::Unorm16 => {
+        (Component::Unorm16, None) => {
             let table = srgb_table(65_536);
-            pixels::<2>(&texels.bytes, channels, |v| table[usize::from(u16::from_ne_bytes(v))])
+            pixels::<2>(bytes, channels, |t| t.map(|code| table[code16(code)]))
         }
-        Component::Float32 => pixels::<4>(&texels.bytes, channels, f32::from_ne_bytes),
+        (Component::Float32, _) => pixels::<4>(bytes, channels, |t| t.map(f32::from_ne_bytes)),
     };
     Film { width: texels.width, height: texels.height, pixels, samples: 0 }
 }
 
+/// Returns the colours of texels; grey is replicated.
 fn pixels<const SIZE: usize>(
     bytes: &[u8],
     channels: usize,
-    linear: impl Fn([u8; SIZE]) -> f32,
+    color: impl Fn([[u8; SIZE]; 3]) -> [f32; 3],
 ) -> Vec<[f32; 3]> {
     let (values, _) = bytes.as_chunks::<SIZE>();
     let texels = values.chunks_exact(channels);
     if channels < 3 {
-        texels.map(|t| [linear(t[0]); 3]).collect()
+        texels.map(|t| color([t[0]; 3])).collect()
     } else {
-        texels.map(|t| [linear(t[0]), linear(t[1]), linear(t[2])]).collect()
+        texels.map(|t| color([t[0], t[1], t[2]])).collect()
     }
 }

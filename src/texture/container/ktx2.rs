@@ -34,7 +34,8 @@ pub(in crate::texture) fn read(file: &[u8], path: &Path) -> Result<Picture> {
         let levels =
             basis::levels(file, &header, dimension, size).map_err(|fault| fault.in_file(path, "KTX2"))?;
         let encoding = Some(format!("KTX2, Basis Universal {codec}"));
-        let facts = FileFacts { dimension, depth: size[2], levels: Vec::new(), color_space, encoding };
+        let facts =
+            FileFacts { dimension, depth: size[2], levels: Vec::new(), color_space, encoding, profile: None };
         return turned(of_levels(levels, facts, notes, path)?, &header);
     }
     let mut format = PixelFormat::of_vulkan(header.format)

@@ -56,6 +56,7 @@ impl Stored<'_> {
             depth: self.size[2],
             levels: Vec::new(),
             color_space: self.color_space,
+            profile: None,
             encoding: Some(format!("{}, {}", self.kind, self.format.name)),
         };
         of_levels(levels, facts, self.notes, path)

@@ -28,6 +28,7 @@ pub(super) mod tag {
     pub const EXTRA_SAMPLES: u16 = 338;
     pub const SAMPLE_FORMAT: u16 = 339;
     pub const JPEG_TABLES: u16 = 347;
+    pub const ICC_PROFILE: u16 = 34_675;
     pub const IMAGE_DEPTH: u16 = 32_997;
 }
 

@@ -76,6 +76,11 @@ pub(super) fn orientation(file: &[u8]) -> Option<u16> {
     u16::try_from(value).ok()
 }
 
+/// Returns the ICC profile.
+pub(super) fn color_profile(file: &[u8]) -> Option<&[u8]> {
+    Directory::first(file).ok()?.bytes(tag::ICC_PROFILE).ok()?
+}
+
 /// Returns true if alpha, the last channel, is 1 everywhere.
 fn is_opaque(texels: &Texels) -> bool {
     let component = texels.format.component();

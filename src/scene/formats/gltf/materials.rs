@@ -14,7 +14,7 @@ use crate::scene::builder::SceneBuilder;
 use crate::scene::model::{self, AlphaMode, BumpKind, BumpMap, Sides, TextureUse};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel};
 use crate::texture::sampler_spec::{Address, MipMode, SamplerSpec, basic_filter};
-use crate::texture::source::{OrientationUse, ReadOptions, TextureSource};
+use crate::texture::source::{OrientationUse, ProfileUse, ReadOptions, TextureSource};
 
 /// Adds a material; returns its index, or which of its images cannot be read.
 pub(in crate::scene::formats) fn add(
@@ -191,7 +191,12 @@ impl Reader<'_> {
             dimension: Dimension::Two,
             color_space,
             color_space_stated: true,
-            reading: ReadOptions { orientation: OrientationUse::Ignore, layer: None },
+            reading: ReadOptions {
+                orientation: OrientationUse::Ignore,
+                // glTF 2.0, 3.8.2: colour space information of PNG and JPEG files is ignored.
+                color_profile: ProfileUse::Ignore,
+                layer: None,
+            },
             flip_v: false,
             mip_kernel: MipKernel::Auto,
         })))

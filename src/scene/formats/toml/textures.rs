@@ -11,7 +11,7 @@ use crate::scene::limits::{MAX_TEXELS, TEXELS};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use crate::texture::open_file::is_volume;
 use crate::texture::source::{
-    CubeLayout, Endian, OrientationUse, ReadOptions, TextureContent, TextureSource, VolumeSource,
+    CubeLayout, Endian, OrientationUse, ProfileUse, ReadOptions, TextureContent, TextureSource, VolumeSource,
 };
 
 pub(super) const TEXTURE: &[&str] = &[
@@ -25,6 +25,7 @@ pub(super) const TEXTURE: &[&str] = &[
     "layout",
     "color_space",
     "orientation",
+    "color_profile",
     "layer",
     "flip_v",
     "mip_filter",
@@ -96,12 +97,17 @@ fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) ->
         | TextureContent::Slices(_) => true,
         _ => false,
     };
-    if let (false, Some(field)) = (is_picture, ["orientation", "layer"].iter().find_map(|k| table.get(k))) {
+    if let (false, Some(field)) =
+        (is_picture, ["orientation", "color_profile", "layer"].iter().find_map(|k| table.get(k)))
+    {
         let what = "it says how a file of a picture is read, and these texels come from none; leave it out";
         return Err(field.error(what, "no picture"));
     }
     if let Some(field) = table.get("orientation") {
         reading.orientation = field.choice(OrientationUse::NAMES, OrientationUse::ALL)?;
+    }
+    if let Some(field) = table.get("color_profile") {
+        reading.color_profile = field.choice(ProfileUse::NAMES, ProfileUse::ALL)?;
     }
     if let Some(field) = table.get("layer") {
         reading.layer = Some(field.string()?.to_owned());
