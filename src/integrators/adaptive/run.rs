@@ -22,11 +22,12 @@ const FIRST_OF_BRIGHT: f64 = 4.0;
 /// Most samples of the first pass, per pixel and in the whole picture.
 const MAX_FIRST: f64 = 1024.0;
 const MAX_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
-/// Fraction of the remaining time for which a pass is planned; for the first passes less, as samples that are placed for
-/// the first time take longer.
+/// Fraction of the remaining time for which a pass is planned: of the same number of samples in each pixel; of samples
+/// that are placed for the first time, which take up to four times as long, where what errs is seen by few pixels and all
+/// others show an empty background; and of more of them, whose rate is known.
+const OF_TIME_OF_EQUAL: f64 = 0.6;
+const OF_TIME_AT_FIRST: f64 = 0.25;
 const OF_TIME: f64 = 0.85;
-const OF_TIME_AT_FIRST: f64 = 0.6;
-const FIRST_PASSES: u32 = 2;
 /// Fraction of the whole time that a first pass may take if the rate is known.
 const OF_FIRST: f64 = 0.4;
 /// Fraction of the whole time that is reserved for the last audit.
@@ -109,7 +110,7 @@ fn passes(
             Goal::Error(_) => f64::INFINITY,
             Goal::Seconds(limit) => {
                 let left = limit * (1.0 - AUDIT_TIME) - (now - start) - pace.hosting;
-                taken + pace.rate * left.max(0.0) * of_time(outcome.passes)
+                taken + pace.rate * left.max(0.0) * of_time(seen.equal(), first)
             }
         };
         let enough = match goal {
@@ -228,8 +229,14 @@ impl Outcome {
     }
 }
 
-fn of_time(passes: u32) -> f64 {
-    if passes < FIRST_PASSES { OF_TIME_AT_FIRST } else { OF_TIME }
+/// Returns the fraction of the remaining time for the next pass: `equal` is the number of samples in each half of every
+/// pixel, if it is the same, and `first` the one that every pixel has before samples are placed.
+fn of_time(equal: Option<u32>, first: u32) -> f64 {
+    match equal {
+        Some(now) if now < first => OF_TIME_OF_EQUAL,
+        Some(_) => OF_TIME_AT_FIRST,
+        None => OF_TIME,
+    }
 }
 
 /// Returns the largest factor by which a pixel's count grows from one pass to the next, as its variance is only roughly
