@@ -151,14 +151,14 @@ fn of_code_points([primaries, transfer, matrix, full]: [u8; 4]) -> (String, Mean
         (9, _) => name = "BT.2020".into(),
         _ => {}
     }
-    let mut icc = Icc::new_srgb();
+    let mut icc = Icc { cicp: None, ..Icc::new_srgb() };
     icc.update_rgb_colorimetry_from_cicp(CicpProfile {
         color_primaries: of_primaries,
         transfer_characteristics: of_transfer,
         matrix_coefficients: moxcms::MatrixCoefficients::Identity,
         full_range: true,
     });
-    // Unknown primaries leave the profile as it was.
+    // Unknown primaries leave it as it was.
     match icc.cicp {
         Some(_) => (name, of_icc(&icc)),
         None => (name, Meaning::Unusable("has code points of no meaning")),
