@@ -151,7 +151,8 @@ fn of_code_points([primaries, transfer, matrix, full]: [u8; 4]) -> (String, Mean
         (9, _) => name = "BT.2020".into(),
         _ => {}
     }
-    let mut icc = Icc { cicp: None, ..Icc::new_srgb() };
+    let mut icc = Icc::new_srgb();
+    icc.cicp = None;
     icc.update_rgb_colorimetry_from_cicp(CicpProfile {
         color_primaries: of_primaries,
         transfer_characteristics: of_transfer,
