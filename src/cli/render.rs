@@ -137,7 +137,7 @@ impl<'a> Job<'a> {
         let options = self.options(&wanted, show.is_preview);
         let placement =
             args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
-        let write = WriteOptions { placement, ..args.display.write_options() };
+        let write = WriteOptions { placement, ..args.files.write_options() };
         if !wanted.has_beauty {
             let layers = wanted.render(&scene, &options, on, None, show.progress)?;
             show.bar.finish();
@@ -209,7 +209,7 @@ impl<'a> Job<'a> {
             warnings.push(format!("{fault}; --method shader reads the right ones"));
         }
         warnings.splice(..0, advice::of_scene(scene));
-        warnings.extend(self.args.display.without_effect(&self.outputs, self.args.layers.has_beauty()));
+        warnings.extend(self.args.files.without_effect(&self.outputs, self.args.layers.has_beauty()));
         warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
         if self.has_goal() && self.args.overrides.names_spp() {
             warnings

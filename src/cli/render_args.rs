@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::display::DisplayArgs;
+use super::display::FileArgs;
 use super::layers::LayerArgs;
 use super::overrides::Overrides;
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
@@ -34,7 +34,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub overrides: Overrides,
     #[command(flatten)]
-    pub display: DisplayArgs,
+    pub files: FileArgs,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU).
     /// May be given several times, also one device: strips of the picture are assigned to them in turn [default:
     /// discrete GPU, else integrated, else CPU]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, ArgMatches, Args, Command as CommandLine, FromArgMatches};
 
-use super::display::DisplayArgs;
+use super::display::FileArgs;
 use super::overrides::Overrides;
 use super::record::Record;
 use super::render_args::RenderArgs;
@@ -42,7 +42,7 @@ fn overrides(id: &str) -> bool {
 
 /// Returns true if an option decides pixels: those are recorded.
 fn decides_pixels(id: &str) -> bool {
-    OWN.contains(&id) || overrides(id) || has(DisplayArgs::augment_args(CommandLine::new("")), id)
+    OWN.contains(&id) || overrides(id) || has(FileArgs::augment_args(CommandLine::new("")), id)
 }
 
 /// Returns the options of a command line that a record holds.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use super::display::DisplayArgs;
 use super::overrides::Overrides;
 use super::{DEVICE, OUTPUT};
 use crate::core::error::{Error, Result};
@@ -27,6 +28,8 @@ pub struct ViewArgs {
     port: u16,
     #[command(flatten)]
     overrides: Overrides,
+    #[command(flatten)]
+    display: DisplayArgs,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU)
     /// [default: discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
@@ -59,7 +62,8 @@ pub fn run(args: &ViewArgs) -> Result<ExitCode> {
         .map_err(|e| Error::new(format!("cannot listen to Ctrl-C: {e}")))?;
     let camera = args.overrides.camera();
     let source = Source { path: args.scene.clone(), camera, device: args.device.clone() };
-    let first = Settings { options: args.overrides.options().collect(), set: args.overrides.settings() };
+    let options = args.overrides.options().chain(args.display.options()).collect();
+    let first = Settings { options, set: args.overrides.settings() };
     let page = Page::open(source, first, &on, args.port)?;
     super::print(&page.address)?;
     if !args.quiet {

@@ -13,6 +13,18 @@ pub const KELVINS: RangeInclusive<f64> = 1500.0..=25_000.0;
 /// illuminants); below there is no daylight, above no black body.
 const MIXED: [f64; 2] = [4000.0, 5000.0];
 
+/// Returns the colour temperature that a text states, or what was expected.
+pub fn parse_kelvin(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| KELVINS.contains(value));
+    value.ok_or_else(|| {
+        format!(
+            "expected kelvin from {} to {}: lamps have about 2700, daylight 6500",
+            KELVINS.start(),
+            KELVINS.end()
+        )
+    })
+}
+
 /// Returns the matrix after which linear colours of sRGB that have the chromaticity of light of this temperature are
 /// neutral, with the luminance that they had.
 pub fn white_balance(kelvin: f64) -> DMat3 {

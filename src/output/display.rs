@@ -8,11 +8,18 @@ use glam::{DMat3, DVec3};
 
 use super::adaptation::{KELVINS, white_balance};
 use super::gamut::Gamut;
+use super::quantise::srgb8;
 use super::tone_map::ToneMap;
 use crate::core::error::{Error, Result};
 
 /// The exposures, in stops, that a picture takes.
 pub const STOPS: RangeInclusive<f64> = -64.0..=64.0;
+
+/// Returns the exposure that a text states, or what was expected.
+pub fn parse_stops(text: &str) -> std::result::Result<f64, String> {
+    let value = text.parse().ok().filter(|value| STOPS.contains(value));
+    value.ok_or_else(|| format!("expected a number of stops from {} to {}", STOPS.start(), STOPS.end()))
+}
 
 /// What becomes of a film's colours in formats for screens: PNG, JPEG and TIFF.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +60,12 @@ impl DisplayTransform {
             ))),
             _ => Ok(()),
         }
+    }
+
+    /// Returns the numbers that a picture of 8 bits a channel has for a pixel of a film.
+    pub fn codes(&self, pixel: [f32; 3]) -> [u8; 3] {
+        let prepared = self.prepare();
+        if prepared.is_identity { pixel } else { prepared.color(pixel) }.map(srgb8)
     }
 
     /// Returns the transform with its matrices.

@@ -1,10 +1,14 @@
 //! `moire view`: the program serves a page, and tests are its clients, by bare sockets and by a browser.
 
 mod browser;
+mod chromium;
+mod display;
 mod ends;
+mod gestures;
 mod pictures;
 mod pixels;
 mod requests;
+mod texels;
 
 use std::io::{Read, Write};
 use std::net::TcpStream;

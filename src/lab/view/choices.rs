@@ -1,10 +1,11 @@
 //! The options of the page, in one table: those of `moire render` whose values are words, from their vocabularies, those
-//! that are typed, and keys of all samplers. Input: an option and its value as text. Output: a change of the scene, or
-//! what is wrong with the value.
+//! that are typed, keys of all samplers, and what becomes of light on a screen. Input: an option and its value as text.
+//! Output: a change of the scene or of the display, or what is wrong with the value.
 
 use serde_json::{Value, json};
 
 use super::SAMPLES;
+use crate::output::{DisplayTransform, Gamut, ToneMap, parse_kelvin, parse_stops};
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
 use crate::scene::{MAX_RADIUS, MAX_SIZE, MAX_SPP};
@@ -27,6 +28,8 @@ pub enum Kind {
     Option(fn(&mut Changes, &str) -> Result<(), String>),
     /// As `--set`.
     Set,
+    /// As an option of the display: the film stays, and is shown differently.
+    Display(fn(&mut DisplayTransform, &str) -> Result<(), String>),
 }
 
 const BOOL: &[&str] = &["true", "false"];
@@ -152,6 +155,42 @@ pub const CHOICES: &[Choice] = &[
             Ok(())
         }),
     },
+    Choice {
+        name: "exposure",
+        names: &[],
+        help: "stops, each a factor of two, before the tone map",
+        kind: Kind::Display(|display, value| {
+            display.exposure = parse_stops(value)?;
+            Ok(())
+        }),
+    },
+    Choice {
+        name: "white-balance",
+        names: &[],
+        help: "the colour temperature, in kelvin, of the light that looks white",
+        kind: Kind::Display(|display, value| {
+            display.white_balance = Some(parse_kelvin(value)?);
+            Ok(())
+        }),
+    },
+    Choice {
+        name: "tone-map",
+        names: ToneMap::NAMES,
+        help: "how light without a bound becomes that of a screen",
+        kind: Kind::Display(|display, value| {
+            display.tone_map = ToneMap::from_name(value).ok_or_else(|| expected(ToneMap::NAMES))?;
+            Ok(())
+        }),
+    },
+    Choice {
+        name: "gamut",
+        names: Gamut::NAMES,
+        help: "the primaries of the picture, with which it is tagged",
+        kind: Kind::Display(|display, value| {
+            display.gamut = Gamut::from_name(value).ok_or_else(|| expected(Gamut::NAMES))?;
+            Ok(())
+        }),
+    },
 ];
 
 fn expected(names: &[&str]) -> String {
@@ -171,14 +210,26 @@ pub fn described(own: &Scene) -> Value {
             "values": choice.names,
             "help": choice.help,
             "own": own_value(own, choice.name),
+            "slider": slider(choice.name),
+            "is_display": matches!(choice.kind, Kind::Display(_)),
         })
     };
     CHOICES.iter().map(of).collect()
 }
 
+/// Returns the ends, the step and the neutral place of an option's slider; a field takes values beyond the ends, too.
+fn slider(name: &str) -> Option<[f64; 4]> {
+    match name {
+        "exposure" => Some([-8.0, 8.0, 0.1, 0.0]),
+        "white-balance" => Some([2000.0, 12_000.0, 100.0, 6500.0]),
+        _ => None,
+    }
+}
+
 /// Returns the value that a scene has; none where its samplers differ, or where it has no samplers.
 fn own_value(scene: &Scene, name: &str) -> Option<String> {
     let sampling = &scene.sampling;
+    let display = DisplayTransform::default();
     Some(match name {
         "algorithm" => sampling.algorithm.name().into(),
         "pattern" => sampling.pattern.name().into(),
@@ -190,6 +241,10 @@ fn own_value(scene: &Scene, name: &str) -> Option<String> {
         "footprint" => sampling.footprint.name().into(),
         "precision" => sampling.precision.name().into(),
         "size" => format!("{}x{}", scene.width, scene.height),
+        "exposure" => display.exposure.to_string(),
+        "white-balance" => "off".into(),
+        "tone-map" => display.tone_map.name().into(),
+        "gamut" => display.gamut.name().into(),
         _ => {
             let of = |sampler: &crate::texture::sampler_spec::SamplerSpec| match name {
                 "filter" if sampler.mag != sampler.min => format!("{}/{}", sampler.mag, sampler.min),
@@ -216,11 +271,15 @@ mod tests {
     #[test]
     fn every_word_of_every_vocabulary_is_a_value() {
         for choice in CHOICES {
-            let Kind::Option(set) = &choice.kind else { continue };
-            for name in choice.names {
-                assert_eq!(set(&mut Changes::default(), name), Ok(()), "{}={name}", choice.name);
+            let set = |value: &str| match &choice.kind {
+                Kind::Option(set) => set(&mut Changes::default(), value),
+                Kind::Display(set) => set(&mut DisplayTransform::default(), value),
+                Kind::Set => Err("expected by the scene".into()),
+            };
+            for name in choice.names.iter().filter(|_| !matches!(choice.kind, Kind::Set)) {
+                assert_eq!(set(name), Ok(()), "{}={name}", choice.name);
             }
-            let said = set(&mut Changes::default(), "no such word").expect_err(choice.name);
+            let said = set("no such word").expect_err(choice.name);
             assert!(said.starts_with("expected"), "{said}");
         }
     }
@@ -229,6 +288,7 @@ mod tests {
     fn sizes_and_numbers_keep_their_limits() {
         let set = |name: &str, value: &str| match &choice(name).unwrap().kind {
             Kind::Option(set) => set(&mut Changes::default(), value).is_ok(),
+            Kind::Display(set) => set(&mut DisplayTransform::default(), value).is_ok(),
             Kind::Set => unreachable!(),
         };
         assert!(
@@ -236,5 +296,7 @@ mod tests {
         );
         assert!(set("spp", "16777216") && !set("spp", "16777217") && !set("spp", "-1"));
         assert!(set("pixel-filter-radius", "1.5") && !set("pixel-filter-radius", "nan"));
+        assert!(set("exposure", "-0.5") && !set("exposure", "65") && !set("exposure", "nan"));
+        assert!(set("white-balance", "2700") && !set("white-balance", "0") && !set("white-balance", "off"));
     }
 }

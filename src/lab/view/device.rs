@@ -8,14 +8,14 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::queue::{Queue, Turn};
-use super::refinement::{Refinement, Shown};
+use super::refinement::Refinement;
+use super::shown::Shown;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::film::Film;
 use crate::core::panics;
 use crate::core::progress::Progress;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle::backend::OracleBackend;
-use crate::output::{self, Format};
 use crate::pack::{self, MipPlacement, PackedScene};
 use crate::render::{MipChoice, On, Session, Tuning, integrator};
 use crate::scene::model::Scene;
@@ -143,9 +143,7 @@ fn step<'g>(
     }
     let made = open[0].render(turn.count, turn)?;
     refinement.warn(made.warnings);
-    let png = output::to_bytes(&made.film, Format::Png)?;
-    let shown = Shown { count: turn.count, film: made.film, png };
-    refinement.add(shown, made.samples, made.seconds, made.estimate);
+    refinement.add(Shown::new(turn.count, made.film), made.samples, made.seconds, made.estimate);
     Ok(())
 }
 

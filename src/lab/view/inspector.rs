@@ -4,6 +4,7 @@
 use glam::DVec2;
 use serde_json::{Value, json};
 
+use super::texel::{face, in_file, texel};
 use super::window;
 use crate::core::error::Result;
 use crate::lab::inspect::uses::name_of;
@@ -138,18 +139,22 @@ impl Inspector {
         let LookUp { image, how, coordinate, spread, .. } = look_up;
         let size = [image.size.x, image.size.y];
         let place = look_up.place();
-        let texel = [(place.x, size[0]), (place.y, size[1])]
-            .map(|(at, size)| ((at * f64::from(size)).floor().max(0.0) as u32).min(size - 1));
+        let texel = texel(look_up);
+        let source = self.scene.textures.get(look_up.texture as usize);
+        let in_file = source.zip(texel.as_deref()).and_then(|(source, texel)| in_file(source, texel, size));
         let [major, minor] = [spread.major, spread.minor].map(f64::sqrt);
         Ok(json!({
             "use": use_of,
             "texture": name,
             "size": size,
+            "depth": (image.kind == TextureKind::Volume).then_some(image.size.z),
             "levels": image.levels,
             "uv": coordinate.at.to_array(),
             "change": coordinate.change.map(|change| change.to_array()),
             "place": place.to_array(),
             "texel": texel,
+            "face": face(look_up),
+            "in_file": in_file,
             "texels": [major, minor],
             "level": look_up.level(),
             "magnified": major <= 1.0,

@@ -12,7 +12,9 @@ mod queue;
 mod refinement;
 mod routes;
 mod settings;
+mod shown;
 mod tabs;
+mod texel;
 mod window;
 
 use std::fmt::Write;
@@ -47,6 +49,7 @@ impl Page {
     pub fn open(source: Source, first: Settings, on: &On, port: u16) -> Result<Page> {
         // Refuses what is wrong before the device starts; the menus then say what the scene has without these options.
         first.load(&source, false)?;
+        first.display()?;
         let scene = Settings { set: first.set.clone(), ..Settings::default() }.load(&source, false)?;
         let server = Server::open(port).map_err(|error| {
             let what = format!("port {port} of 127.0.0.1: {error}");

@@ -1,36 +1,46 @@
-//! A pixel of a refinement: its value in the newest picture, and what it is made of. Input: a refinement and a pixel.
-//! Output: JSON.
+//! A pixel of a side: its value in the newest film and in the picture of it, and what it is made of. Input: a side and a
+//! pixel. Output: JSON.
 
 use std::sync::PoisonError;
 
 use serde_json::{Value, json};
 
 use super::inspector::Inspector;
-use super::refinement::{Refinement, Shown};
 use super::settings::Source;
+use super::shown::Shown;
+use super::tabs::Side;
 use crate::core::error::Result;
+use crate::output::DisplayTransform;
 
-/// Returns what a pixel of a refinement is made of.
-pub fn pixel(refinement: &Refinement, source: &Source, place: [u32; 2]) -> Result<Value> {
+/// Returns what a pixel of a side is made of.
+pub fn pixel(side: &Side, source: &Source, place: [u32; 2]) -> Result<Value> {
+    let refinement = &side.refinement;
     let shown = refinement.shown();
     let count = shown.as_ref().map_or(1, |shown| shown.count);
     let mut inspector = refinement.inspector.lock().unwrap_or_else(PoisonError::into_inner);
     let inspector = match &mut *inspector {
         Some(inspector) => inspector,
-        empty => empty.insert(Inspector::new(refinement.settings.load(source, true)?)?),
+        empty => {
+            // A file that has changed since is of another picture; meshes are then numbered as one.
+            let is_same = refinement.stamp == source.stamp();
+            let scene =
+                if is_same { refinement.settings.load(source, true)? } else { refinement.scene.clone() };
+            empty.insert(Inspector::new(scene)?)
+        }
     };
     let mut told = inspector.told(place, count)?;
-    told["value"] = shown.map(|shown| value_of(&shown, place)).into();
+    told["value"] = shown.map(|shown| value_of(&shown, &side.display, place)).into();
     Ok(told)
 }
 
-/// Returns the colour of a picture's pixel.
-fn value_of(shown: &Shown, [x, y]: [u32; 2]) -> Value {
+/// Returns the light of a film's pixel, and the numbers that the picture of it has.
+fn value_of(shown: &Shown, display: &DisplayTransform, [x, y]: [u32; 2]) -> Value {
     let linear = shown.film.pixels[(y * shown.film.width + x) as usize];
     // What is not finite has no number in JSON.
     json!({
         "spp": shown.count,
         "linear": linear.map(|value| if value.is_finite() { json!(value) } else { json!(value.to_string()) }),
-        "srgb": linear.map(crate::output::srgb8),
+        "shown": display.codes(linear),
+        "gamut": display.gamut.name(),
     })
 }

@@ -3,24 +3,18 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
 use serde_json::{Value, json};
 
 use super::inspector::Inspector;
 use super::settings::{Resolved, Settings};
+use super::shown::Shown;
 use crate::core::film::Film;
 use crate::scene::model::Scene;
 
 /// Pixels by which errors are measured, at most: every n-th of a large picture.
 const MAX_MEASURED: usize = 1 << 17;
-
-/// A picture of some number of samples.
-pub struct Shown {
-    /// Samples a pixel for which it was rendered.
-    pub count: u32,
-    pub film: Film,
-    pub png: Vec<u8>,
-}
 
 /// What was measured of a picture.
 struct Point {
@@ -46,14 +40,17 @@ struct State {
     warnings: Vec<String>,
 }
 
-/// A setting, and the pictures of it so far.
+/// Settings that decide a film, and the pictures of it so far.
 pub struct Refinement {
     /// Tells it from all others.
     pub number: u64,
+    /// Without those of the display, which change no film.
     pub settings: Settings,
     /// With the last count.
     pub scene: Scene,
     pub counts: Vec<u32>,
+    /// The version of the file of which it is.
+    pub stamp: Option<(u64, SystemTime)>,
     /// The scene as the oracle reads it, once a pixel was asked for.
     pub inspector: Mutex<Option<Inspector>>,
     is_cancelled: AtomicBool,
@@ -63,12 +60,13 @@ pub struct Refinement {
 impl Refinement {
     pub fn new(settings: Settings, resolved: Resolved) -> Refinement {
         static NUMBERS: AtomicU64 = AtomicU64::new(1);
-        let Resolved { scene, counts, warnings } = resolved;
+        let Resolved { scene, counts, stamp, warnings } = resolved;
         Refinement {
             number: NUMBERS.fetch_add(1, Ordering::Relaxed),
             settings,
             scene,
             counts,
+            stamp,
             inspector: Mutex::default(),
             is_cancelled: AtomicBool::new(false),
             state: Mutex::new(State { warnings, ..State::default() }),
@@ -85,6 +83,11 @@ impl Refinement {
 
     pub fn is_cancelled(&self) -> bool {
         self.is_cancelled.load(Ordering::Relaxed)
+    }
+
+    /// Returns true if it can be shown and rendered further: it is neither cancelled nor has it failed.
+    pub fn is_usable(&self) -> bool {
+        !self.is_cancelled() && self.state().failure.is_none()
     }
 
     /// Returns the samples of its next picture; none if it is done, failed or cancelled.

@@ -11,20 +11,21 @@ use super::choices::described;
 use super::device::told;
 use super::http::{Answer, Request, Response};
 use super::pixel::pixel;
-use super::refinement::Refinement;
 use super::settings::Settings;
-use super::tabs::Tabs;
+use super::tabs::{Side, Tabs};
 use crate::core::error::{Error, Result};
 use crate::scene::model::Scene;
 
 /// The files of the page: path, type, content.
-const PAGE: [(&str, &str, &str); 9] = [
+const PAGE: [(&str, &str, &str); 11] = [
     ("", "text/html; charset=utf-8", include_str!("page/index.html")),
     ("style.css", "text/css; charset=utf-8", include_str!("page/style.css")),
     ("main.js", SCRIPT, include_str!("page/main.js")),
     ("dom.js", SCRIPT, include_str!("page/dom.js")),
+    ("commands.js", SCRIPT, include_str!("page/commands.js")),
     ("menus.js", SCRIPT, include_str!("page/menus.js")),
     ("picture.js", SCRIPT, include_str!("page/picture.js")),
+    ("pictures.js", SCRIPT, include_str!("page/pictures.js")),
     ("pointer.js", SCRIPT, include_str!("page/pointer.js")),
     ("pixel.js", SCRIPT, include_str!("page/pixel.js")),
     ("chart.js", SCRIPT, include_str!("page/chart.js")),
@@ -72,7 +73,8 @@ impl Routes {
         let whole = |response| Ok(Answer::Whole(response));
         match (request.method.as_str(), path) {
             ("POST", "set") => whole(self.set(request)),
-            ("GET", "set") | ("POST", _) => Err(405),
+            ("POST", "swap") => whole(self.swap(request)),
+            ("GET", "set" | "swap") | ("POST", _) => Err(405),
             ("GET", "page") => whole(self.page()),
             ("GET", "events") => self.events(request),
             ("GET", "picture") => whole(self.picture(request)?),
@@ -105,7 +107,7 @@ impl Routes {
         }
     }
 
-    fn side(&self, request: &Request) -> std::result::Result<Arc<Refinement>, u16> {
+    fn side(&self, request: &Request) -> std::result::Result<Side, u16> {
         let side = side_of(request).ok_or(400u16)?;
         self.tabs.side(request.value("tab").ok_or(400u16)?, side).ok_or(404)
     }
@@ -121,20 +123,30 @@ impl Routes {
         Response::json(&json!({ "error": set().err().map(|error| told(&error)) }))
     }
 
+    /// Exchanges the sides, with their films.
+    fn swap(&self, request: &Request) -> Response {
+        let swapped = self.tabs.swap(request.value("tab").unwrap_or_default());
+        Response::json(&json!({ "error": swapped.err().map(|error| told(&error)) }))
+    }
+
     /// Returns a side's newest picture; nothing while there is none, as after a setting that the page does not know yet.
     fn picture(&self, request: &Request) -> std::result::Result<Response, u16> {
-        let shown = self.side(request)?.shown();
-        Ok(shown.map_or(Response::nothing(), |shown| Response::new("image/png", shown.png.clone())))
+        let side = self.side(request)?;
+        let Some(shown) = side.refinement.shown() else { return Ok(Response::nothing()) };
+        Ok(match shown.png(&side.display) {
+            Ok(png) => Response::new("image/png", png.as_slice()),
+            Err(error) => Response::refusal(500, &told(&error)),
+        })
     }
 
     fn pixel(&self, request: &Request) -> std::result::Result<Response, u16> {
-        let refinement = self.side(request)?;
+        let side = self.side(request)?;
         let place = [request.number("x"), request.number("y")];
         let [Some(x), Some(y)] = place else { return Err(400) };
-        if x >= refinement.scene.width || y >= refinement.scene.height {
+        if x >= side.refinement.scene.width || y >= side.refinement.scene.height {
             return Err(404);
         }
-        Ok(Response::json(&match pixel(&refinement, self.tabs.source(), [x, y]) {
+        Ok(Response::json(&match pixel(&side, self.tabs.source(), [x, y]) {
             Ok(value) => value,
             Err(error) => json!({ "error": told(&error) }),
         }))

@@ -1,14 +1,17 @@
 //! The settings of one side of the page: options by name, and `KEY=VALUE` of the scene. Output: the scene as `moire
-//! render` would render it with them, the counts of samples through which its picture refines, and the command.
+//! render` would render it with them, the counts of samples through which its picture refines, what becomes of its light
+//! on a screen, and the command.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 use serde_json::Value;
 
 use super::SAMPLES;
 use super::choices::{CHOICES, Kind, choice};
 use crate::core::error::{Error, Result};
+use crate::output::DisplayTransform;
 use crate::scene::changes::Changes;
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
@@ -28,6 +31,14 @@ pub struct Source {
     pub device: Option<String>,
 }
 
+impl Source {
+    /// Returns what tells the scene file from another version of it; none where there is no file.
+    pub fn stamp(&self) -> Option<(u64, SystemTime)> {
+        let file = std::fs::metadata(&self.path).ok()?;
+        Some((file.len(), file.modified().ok()?))
+    }
+}
+
 /// The settings of a side.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
@@ -42,6 +53,8 @@ pub struct Resolved {
     pub scene: Scene,
     /// Samples a pixel of its pictures, rising.
     pub counts: Vec<u32>,
+    /// The version of the file that was read.
+    pub stamp: Option<(u64, SystemTime)>,
     pub warnings: Vec<String>,
 }
 
@@ -74,11 +87,34 @@ impl Settings {
         for (name, value) in &self.options {
             let known = choice(name).ok_or_else(|| Error::new(format!("there is no option {name:?}")))?;
             if let Kind::Option(set) = &known.kind {
-                set(&mut changes, value)
-                    .map_err(|what| Error::new(format!("--{name}: found {value:?}; {what}")))?;
+                set(&mut changes, value).map_err(|what| wrong(name, value, &what))?;
             }
         }
         Ok(changes)
+    }
+
+    /// Returns what becomes of light on a screen.
+    pub fn display(&self) -> Result<DisplayTransform> {
+        let mut display = DisplayTransform::default();
+        for (name, value) in &self.options {
+            if let Some(Kind::Display(set)) = choice(name).map(|choice| &choice.kind) {
+                set(&mut display, value).map_err(|what| wrong(name, value, &what))?;
+            }
+        }
+        Ok(display)
+    }
+
+    /// Returns the options of the display as words: the same ones for the same picture of a film.
+    pub fn display_words(&self) -> String {
+        let options = self.options.iter().filter(|(name, _)| is_of_display(name));
+        options.map(|(name, value)| format!("--{name} {value}")).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Returns those of the settings that decide the film: all but those of the display.
+    pub fn of_film(&self) -> Settings {
+        let options = self.options.iter().filter(|(name, _)| !is_of_display(name));
+        let options = options.map(|(name, value)| (name.clone(), value.clone())).collect();
+        Settings { options, set: self.set.clone() }
     }
 
     /// Reads the scene with these settings. `keeps_meshes`: for numbering what a pixel shows.
@@ -94,12 +130,13 @@ impl Settings {
 
     /// Reads the scene with these settings and plans how its picture refines.
     pub fn resolve(&self, source: &Source) -> Result<Resolved> {
+        let stamp = source.stamp();
         let mut scene = self.load(source, false)?;
         if !self.options.contains_key("spp") {
             scene.sampling.spp = scene.sampling.spp.max(SAMPLES);
         }
         let counts = counts(&scene);
-        Ok(Resolved { warnings: advice::of_scene(&scene), scene, counts })
+        Ok(Resolved { warnings: advice::of_scene(&scene), scene, counts, stamp })
     }
 
     /// Returns the command that renders the picture of a number of samples, for a shell.
@@ -121,7 +158,7 @@ impl Settings {
 
     /// Returns the options of the command line, with that number of samples.
     fn given(&self, count: u32) -> Vec<Given> {
-        let options = CHOICES.iter().filter(|choice| matches!(choice.kind, Kind::Option(_)));
+        let options = CHOICES.iter().filter(|choice| !matches!(choice.kind, Kind::Set));
         let value = |name: &str| {
             if name == "spp" { Some(count.to_string()) } else { self.options.get(name).cloned() }
         };
@@ -133,6 +170,15 @@ impl Settings {
 struct Given {
     name: &'static str,
     value: String,
+}
+
+/// Returns true for an option that changes no film, but how it is shown.
+fn is_of_display(name: &str) -> bool {
+    choice(name).is_some_and(|choice| matches!(choice.kind, Kind::Display(_)))
+}
+
+fn wrong(name: &str, value: &str, what: &str) -> Error {
+    Error::new(format!("--{name}: found {value:?}; {what}"))
 }
 
 /// Returns the counts through which a picture refines: powers of two that its pattern takes, and that of the scene.

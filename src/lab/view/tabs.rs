@@ -11,6 +11,7 @@ use super::queue::Queue;
 use super::refinement::Refinement;
 use super::settings::{Settings, Source};
 use crate::core::error::{Error, Result};
+use crate::output::DisplayTransform;
 use crate::scene::Setting;
 
 /// Tabs at once.
@@ -22,10 +23,19 @@ const PACE: Duration = Duration::from_millis(30);
 /// Digits of a tab's name.
 const NAME_DIGITS: usize = 64;
 
-/// A tab and the refinements of its sides, which are one where their settings are equal.
+/// What a side shows: a film that refines, which is that of the other side where the settings of both ask for the same
+/// one, and how its light becomes that of a screen.
+#[derive(Clone)]
+pub struct Side {
+    pub refinement: Arc<Refinement>,
+    pub display: DisplayTransform,
+    settings: Settings,
+}
+
+/// A tab and its sides.
 struct Tab {
     name: String,
-    sides: [Arc<Refinement>; 2],
+    sides: [Side; 2],
     /// Streams of events that show it: two while a browser opens a new one before the old one is noticed to have ended.
     streams: usize,
 }
@@ -84,6 +94,7 @@ impl Tabs {
         // Reading the scene takes its time, in which other tabs go on.
         let is_open = self.tabs().iter().any(|tab| tab.name == name);
         let resolved = (!is_open).then(|| self.first.resolve(&self.source)).transpose()?;
+        let display = self.first.display()?;
         let mut tabs = self.tabs();
         match (tabs.iter().position(|tab| tab.name == name), resolved) {
             (Some(at), _) => tabs[at].streams += 1,
@@ -91,9 +102,10 @@ impl Tabs {
                 return Err(Error::new(format!("{MAX_TABS} tabs are open, the most at once: close one")));
             }
             (None, Some(resolved)) => {
-                let refinement = Arc::new(Refinement::new(self.first.clone(), resolved));
+                let refinement = Arc::new(Refinement::new(self.first.of_film(), resolved));
                 self.queue.push(refinement.clone());
-                tabs.push(Tab { name: name.into(), sides: [refinement.clone(), refinement], streams: 1 });
+                let side = Side { refinement, display, settings: self.first.clone() };
+                tabs.push(Tab { name: name.into(), sides: [side.clone(), side], streams: 1 });
             }
             (None, None) => return Err(Error::new("this tab has just been closed")),
         }
@@ -105,44 +117,64 @@ impl Tabs {
         if let Some(at) = tabs.iter().position(|tab| tab.name == name) {
             tabs[at].streams -= 1;
             if tabs[at].streams == 0 {
-                tabs.remove(at).sides.iter().for_each(|side| side.cancel());
+                tabs.remove(at).sides.iter().for_each(|side| side.refinement.cancel());
             }
         }
     }
 
-    /// Returns a side's refinement, 0 or 1.
-    pub fn side(&self, name: &str, side: usize) -> Option<Arc<Refinement>> {
+    /// Returns a side, 0 or 1.
+    pub fn side(&self, name: &str, side: usize) -> Option<Side> {
         self.tabs().iter().find(|tab| tab.name == name)?.sides.get(side).cloned()
     }
 
-    /// Gives a side other settings. What it rendered ends, unless the other side shows the same.
+    /// Gives a side other settings. A film that either side has is kept, and shown as they say; one that no side shows
+    /// any more is rendered no further.
     pub fn set(&self, name: &str, side: usize, settings: Settings) -> Result<()> {
         let gone = || Error::new("this tab is not open");
         let own = self.side(name, side).ok_or_else(gone)?;
-        if own.settings == settings && !own.is_cancelled() {
+        if own.settings == settings && own.refinement.is_usable() {
             return Ok(());
         }
         let is_new = |text: &&String| !self.first.set.contains(text);
         for text in settings.set.iter().filter(is_new) {
             check_files(&Setting::parse(text)?, &self.source)?;
         }
-        // Reading the scene takes its time, in which other tabs go on.
-        let resolved = settings.resolve(&self.source)?;
-        let mut tabs = self.tabs();
-        let tab = tabs.iter_mut().find(|tab| tab.name == name).ok_or_else(gone)?;
-        let old = tab.sides[side].clone();
-        let other = &tab.sides[1 - side];
-        let fresh = if other.settings == settings {
-            other.clone()
-        } else {
-            let fresh = Arc::new(Refinement::new(settings, resolved));
-            self.queue.push(fresh.clone());
-            fresh
-        };
-        tab.sides[side] = fresh;
-        if tab.sides.iter().all(|side| side.number != old.number) {
-            old.cancel();
+        let (display, of_film) = (settings.display()?, settings.of_film());
+        let mut resolved = None;
+        loop {
+            let mut tabs = self.tabs();
+            let tab = tabs.iter_mut().find(|tab| tab.name == name).ok_or_else(gone)?;
+            let films = tab.sides.iter().map(|side| &side.refinement);
+            let mut known = films.filter(|film| film.settings == of_film && film.is_usable());
+            let refinement = match (known.next().cloned(), resolved.take()) {
+                (Some(known), _) => known,
+                (None, Some(resolved)) => {
+                    let fresh = Arc::new(Refinement::new(of_film.clone(), resolved));
+                    self.queue.push(fresh.clone());
+                    fresh
+                }
+                (None, None) => {
+                    // Reading the scene takes its time, in which other tabs go on.
+                    drop(tabs);
+                    resolved = Some(of_film.resolve(&self.source)?);
+                    continue;
+                }
+            };
+            let old = std::mem::replace(&mut tab.sides[side], Side { refinement, display, settings });
+            if tab.sides.iter().all(|side| side.refinement.number != old.refinement.number) {
+                old.refinement.cancel();
+            }
+            break;
         }
+        self.notify();
+        Ok(())
+    }
+
+    /// Exchanges the sides of a tab.
+    pub fn swap(&self, name: &str) -> Result<()> {
+        let mut tabs = self.tabs();
+        let tab = tabs.iter_mut().find(|tab| tab.name == name);
+        tab.ok_or_else(|| Error::new("this tab is not open"))?.sides.reverse();
         drop(tabs);
         self.notify();
         Ok(())
@@ -152,13 +184,14 @@ impl Tabs {
     fn described(&self, name: &str) -> Option<Value> {
         let sides = self.tabs().iter().find(|tab| tab.name == name)?.sides.clone();
         let described = sides.each_ref().map(|side| {
-            let mut described = side.described();
-            let count = side.shown().map(|shown| shown.count);
+            let mut described = side.refinement.described();
+            let count = side.refinement.shown().map(|shown| shown.count);
             described["command"] = count.map(|count| side.settings.command(&self.source, count)).into();
+            described["display"] = side.settings.display_words().into();
             described
         });
         let [a, b] = &sides;
-        Some(json!({ "sides": described, "difference": a.difference(b) }))
+        Some(json!({ "sides": described, "difference": a.refinement.difference(&b.refinement) }))
     }
 }
 

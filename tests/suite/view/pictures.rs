@@ -15,17 +15,19 @@ fn pixels(png: &[u8]) -> Vec<u8> {
     image::load_from_memory(png).unwrap().to_rgb8().into_raw()
 }
 
-/// Runs a command of the page; returns the picture's pixels.
-fn rendered(command: &str, folder: &Path) -> Vec<u8> {
+/// Runs a command of the page; returns the picture's pixels, and its file.
+pub fn rendered(command: &str, folder: &Path) -> (Vec<u8>, Vec<u8>) {
     let rest = command.strip_prefix("moire ").unwrap();
     let out = folder.join("out.png");
     let line = format!("'{}' {rest} -q -o '{}'", program().canonicalize().unwrap().display(), out.display());
     let output = Command::new("bash").args(["-c", &line]).output().unwrap();
     assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
-    pixels(&std::fs::read(out).unwrap())
+    let file = std::fs::read(out).unwrap();
+    (pixels(&file), file)
 }
 
-fn picture(view: &View, side: &str) -> Vec<u8> {
+/// Returns the pixels of a side's picture.
+pub fn picture(view: &View, side: &str) -> Vec<u8> {
     let reply = view.get(&format!("picture?tab=t&side={side}"));
     assert_eq!((reply.status, reply.head.contains("image/png")), (200, true));
     pixels(&reply.body)
@@ -55,6 +57,10 @@ fn pictures_are_bit_for_bit_those_of_the_command() {
         ),
         (json!({ "algorithm": "cone" }), vec![]),
         (json!({ "spp": "4", "algorithm": "beam" }), vec![]),
+        (
+            json!({ "spp": "4", "exposure": "0.5", "tone-map": "agx", "white-balance": "4000" }),
+            vec!["camera.vertical_fov=30"],
+        ),
     ] {
         let mut options = options;
         if options["size"].is_null() {
@@ -63,7 +69,7 @@ fn pictures_are_bit_for_bit_those_of_the_command() {
         let side = refined(&view, &mut tab, 0, options, &set);
         assert!(side["failure"].is_null(), "{side}");
         let command = side["command"].as_str().unwrap();
-        assert!(picture(&view, "a") == rendered(command, folder.path()), "{command}");
+        assert!(picture(&view, "a") == rendered(command, folder.path()).0, "{command}");
     }
 }
 
@@ -174,6 +180,34 @@ fn a_texture_that_cannot_be_read_is_a_failure_of_its_side_alone() {
     assert!(state["sides"][0]["failure"].is_null());
     assert_eq!(view.set("t", "b", json!({ "spp": "1" }), &["texture.t.file=nowhere.png"]), None);
     tab.until(|state| state["sides"][1]["failure"].as_str().is_some_and(|told| told.contains("nowhere.png")));
+}
+
+#[test]
+fn a_scene_file_that_goes_or_changes_is_told_and_what_is_shown_stays_itself() {
+    let folder = tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let text = "[camera]\neye = [0.0, 0.0, 3.0]\nlook_at = [0.0, 0.0, 0.0]\nvertical_fov = 40.0\n[image]\nwidth = 8\nheight = 8\n\
+                [[material]]\nname = \"first\"\nmodel = \"unlit\"\n[[sphere]]\ncenter = [0.0, 0.0, 0.0]\nradius = 1.0\nmaterial = \"first\"\n";
+    std::fs::write(&scene, text).unwrap();
+    let view = View::of_file(&scene, &["--device", &crate::stage::device_name(), "--spp", "1"]);
+    let mut tab = view.tab("t");
+    tab.done();
+    std::fs::remove_file(&scene).unwrap();
+    let told = view.set("t", "b", json!({ "spp": "1", "seed": "3" }), &[]).expect("it is refused");
+    assert!(told.contains("scene.toml"), "{told}");
+    // Another display of the film needs no file.
+    assert_eq!(view.set("t", "b", json!({ "spp": "1", "exposure": "-1" }), &[]), None);
+    tab.until(|state| state["sides"][1]["display"] == "--exposure -1");
+    assert_eq!(view.get("picture?tab=t&side=b").status, 200);
+    let reply = view.get("events?tab=other");
+    assert_eq!((reply.status, reply.text().contains("scene.toml")), (503, true));
+    std::fs::write(&scene, text.replace("first", "another")).unwrap();
+    let material = |side: &str| {
+        view.get(&format!("pixel?tab=t&side={side}&x=4&y=4")).json()["surface"]["material"].clone()
+    };
+    assert_eq!(material("a"), "first", "the picture is of the file as it was");
+    refined(&view, &mut tab, 1, json!({ "spp": "1", "seed": "3" }), &[]);
+    assert_eq!(material("b"), "another");
 }
 
 #[test]

@@ -2,11 +2,13 @@
 
 use std::io::Write;
 use std::net::TcpStream;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
 
 use super::View;
+use crate::stage::device_name;
 use crate::support::moire;
 
 fn view() -> View {
@@ -143,6 +145,33 @@ fn silent_connections_hold_up_no_other() {
     // Far less than the time that they are given.
     assert!(start.elapsed() < Duration::from_secs(8), "{:?}", start.elapsed());
     drop((silent, half));
+}
+
+#[test]
+fn more_silent_connections_than_there_is_room_for_make_room() {
+    let view = view();
+    let _tab = view.tab("t");
+    let silent: Vec<TcpStream> = (0..300).map(|_| view.connect()).collect();
+    let start = Instant::now();
+    assert_eq!(view.get("").status, 200);
+    wait_for_picture(&view);
+    assert!(start.elapsed() < Duration::from_secs(8), "{:?}", start.elapsed());
+    drop(silent);
+}
+
+#[test]
+fn a_built_in_scene_is_served_without_a_file() {
+    let view =
+        View::of_file(Path::new("@lecture"), &["--size", "16x12", "--spp", "1", "--device", &device_name()]);
+    let state = view.tab("t").done();
+    assert!(
+        state["sides"][0]["command"].as_str().unwrap().starts_with("moire render @lecture --spp 1"),
+        "{state}"
+    );
+    assert_eq!(view.get("page").json()["scene"], "@lecture");
+    let refused = moire().args(["view", "@lectur"]).output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("lecture"));
 }
 
 #[test]

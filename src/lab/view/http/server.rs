@@ -1,10 +1,11 @@
 //! Accepts connections on the loopback address and answers each in a thread of its own, up to a number; one that says
-//! nothing holds up no other. Input: what answers requests. Ends when it is told to.
+//! nothing holds up no other, and makes room where there are too many. Input: what answers requests. Ends when it is told
+//! to.
 
 use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::request::Request;
@@ -12,7 +13,8 @@ use super::response::{Response, begin_events};
 use crate::core::error::Result;
 use crate::core::panics;
 
-/// Connections that are open at once; further ones are answered that there are too many.
+/// Connections that are open at once. Of more, the one that has waited longest without a request is closed; where all have
+/// made theirs, the new one is answered that there are too many.
 const MAX_CONNECTIONS: usize = 256;
 /// After the system has refused a connection, as when files are short.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -70,10 +72,10 @@ impl Server {
     /// Answers connections from a thread of its own, until the process ends.
     pub fn run(self, answer: Arc<dyn Fn(&Request) -> Answer + Send + Sync>) -> io::Result<()> {
         let accept = move || {
-            let open = Arc::new(AtomicUsize::new(0));
-            for stream in self.listener.incoming() {
+            let open = Arc::new(Connections::default());
+            for (number, stream) in (0..).zip(self.listener.incoming()) {
                 match stream {
-                    Ok(stream) => admit(stream, &open, &answer),
+                    Ok(stream) => admit(stream, number, &open, &answer),
                     Err(_) => std::thread::sleep(PAUSE),
                 }
             }
@@ -82,39 +84,81 @@ impl Server {
     }
 }
 
+/// Connections that are open, and those of them whose request is not there yet, in the order in which they came.
+#[derive(Default)]
+struct Connections {
+    count: AtomicUsize,
+    waiting: Mutex<Vec<(u64, TcpStream)>>,
+}
+
+impl Connections {
+    fn waiting(&self) -> MutexGuard<'_, Vec<(u64, TcpStream)>> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Closes the one that has waited longest; returns false if none waits.
+    fn make_room(&self) -> bool {
+        let mut waiting = self.waiting();
+        if waiting.is_empty() {
+            return false;
+        }
+        // Its thread then reads the end.
+        let _ = waiting.remove(0).1.shutdown(Shutdown::Both);
+        true
+    }
+
+    /// Notes that a connection waits no longer.
+    fn heard(&self, number: u64) {
+        self.waiting().retain(|(own, _)| *own != number);
+    }
+}
+
 /// Counts an open connection until it is dropped.
-struct Place(Arc<AtomicUsize>);
+struct Place {
+    number: u64,
+    open: Arc<Connections>,
+}
 
 impl Drop for Place {
     fn drop(&mut self) {
-        self.0.fetch_sub(1, Ordering::AcqRel);
+        self.open.heard(self.number);
+        self.open.count.fetch_sub(1, Ordering::AcqRel);
     }
 }
 
 fn admit(
     mut stream: TcpStream,
-    open: &Arc<AtomicUsize>,
+    number: u64,
+    open: &Arc<Connections>,
     answer: &Arc<dyn Fn(&Request) -> Answer + Send + Sync>,
 ) {
-    let before = open.fetch_add(1, Ordering::AcqRel);
-    let place = Place(open.clone());
-    if before >= MAX_CONNECTIONS {
+    let before = open.count.fetch_add(1, Ordering::AcqRel);
+    let place = Place { number, open: open.clone() };
+    if before >= MAX_CONNECTIONS && !open.make_room() {
         // The client may be gone already.
         let _ = Response::of_status(503).send(&mut stream);
         return;
     }
+    if let Ok(own) = stream.try_clone() {
+        open.waiting().push((number, own));
+    }
     let answer = answer.clone();
     let serve = move || {
-        let _place = place;
         // A client that is gone needs no answer.
-        let _ = serve(&mut stream, &*answer);
+        let _ = serve(&mut stream, &place, &*answer);
     };
     // Without a thread the connection is closed.
     let _ = std::thread::Builder::new().name("connection".into()).spawn(serve);
 }
 
-fn serve(stream: &mut TcpStream, answer: &(dyn Fn(&Request) -> Answer + Send + Sync)) -> io::Result<()> {
-    let response = match Request::read(stream) {
+fn serve(
+    stream: &mut TcpStream,
+    place: &Place,
+    answer: &(dyn Fn(&Request) -> Answer + Send + Sync),
+) -> io::Result<()> {
+    let request = Request::read(stream);
+    place.open.heard(place.number);
+    let response = match request {
         Ok(request) => {
             let answered: Result<Answer> = panics::contain(&"answering a request", || Ok(answer(&request)));
             match answered {

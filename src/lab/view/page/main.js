@@ -1,7 +1,9 @@
-// The page: follows the events of its tab, fetches pictures as they refine, and hands what it knows to its parts.
-import { SIDES, element, find, short } from "./dom.js";
+// The page: follows the events of its tab, sends it settings, and hands what it knows to its parts.
+import { SIDES, find, short } from "./dom.js";
+import { Commands } from "./commands.js";
 import { Menus } from "./menus.js";
 import { Picture } from "./picture.js";
+import { Pictures } from "./pictures.js";
 import { followPointer } from "./pointer.js";
 import { PixelPanel } from "./pixel.js";
 import { drawChart } from "./chart.js";
@@ -10,12 +12,28 @@ const random = crypto.getRandomValues(new Uint32Array(4));
 const tab = [...random].map((word) => word.toString(16).padStart(8, "0")).join("");
 const address = (path, side, more = "") => `${path}?tab=${tab}&side=${SIDES[side]}${more}`;
 
+/** Between two changes of the address, of which browsers take some seven a second, in milliseconds. */
+const REST = 200;
+/** After a refusal, before events are asked for again, in milliseconds. */
+const AGAIN = 2000;
+
 let state = null;
-const shown = [null, null];
 const picture = new Picture(find("picture"), find("wipe"), find("zoom"));
 const panel = new PixelPanel(find("pixel-told"), find("pixel-title"), (side, [x, y]) => address("pixel", side, `&x=${x}&y=${y}`));
+const commands = new Commands(find("commands"), address);
+const pictures = new Pictures(address, (side, image, key) => {
+  if (side === 0) frame(image.width, image.height);
+  picture.setImage(side, image);
+  find("picture").dataset[SIDES[side]] = key;
+});
 followPointer(picture, find("stage"));
 picture.onpixel = () => panel.show(state, picture);
+
+/** Gives the stage the shape of a picture. */
+function frame(width, height) {
+  find("stage").style.aspectRatio = width / height;
+  picture.setFrame(width, height);
+}
 
 /** Sends a side's settings; the newest while another is on its way. */
 const sending = [null, null];
@@ -38,26 +56,6 @@ async function send(side, settings) {
   sending[side] = null;
 }
 
-/** Fetches the pictures that are new. */
-async function fetchPicture(side) {
-  const { number, spp } = state.sides[side];
-  const key = `${number}/${spp}`;
-  if (spp === null || shown[side] === key) return;
-  // Both sides are one picture where their settings are equal.
-  shown[side] = key;
-  const answer = await fetch(address("picture", side, `&of=${number}&spp=${spp}`));
-  if (shown[side] !== key) return;
-  if (answer.status !== 200) {
-    shown[side] = null;
-    return;
-  }
-  const blob = await answer.blob();
-  const image = await createImageBitmap(blob);
-  if (shown[side] !== key) return;
-  picture.setImage(side, image);
-  find("picture").dataset[SIDES[side]] = `${key}/${blob.size}`;
-}
-
 /** Says how far a side is. */
 function progress(side) {
   const { spp, next, last, failure, points } = state.sides[side];
@@ -69,43 +67,9 @@ function progress(side) {
   return next === null ? `${name}: ${samples} spp, done` : `${name}: ${samples} spp, then ${next} (up to ${last})`;
 }
 
-/** Shows the commands that render the same pictures, their files and warnings. */
-function showCommands() {
-  const sides = state.sides[0].number === state.sides[1].number ? [0] : [0, 1];
-  const box = find("commands");
-  const made = sides.filter((side) => state.sides[side].command).map((side) => {
-    const { command, warnings, spp, number } = state.sides[side];
-    const name = sides.length === 1 ? "A and B" : SIDES[side].toUpperCase();
-    const copy = element("button", { type: "button", "aria-label": `Copy the command of ${name}` }, "Copy");
-    copy.addEventListener("click", () => copyText(copy, command));
-    const save = element("a", { href: address("picture", side, `&of=${number}&spp=${spp}`), download: `${SIDES[side]}-${spp}.png` }, "PNG");
-    const list = element("ul", { class: "warnings" }, ...warnings.map((text) => element("li", {}, text)));
-    return element("div", { class: "command" },
-      element("strong", { class: `key ${SIDES[side]}` }, name),
-      element("code", { class: "line" }, command),
-      copy, " ", save, ...(warnings.length ? [list] : []));
-  });
-  const text = JSON.stringify(sides.map((side) => [state.sides[side].command, state.sides[side].warnings]));
-  if (box.dataset.text === text) return;
-  box.dataset.text = text;
-  box.replaceChildren(...made);
-}
-
-async function copyText(button, text) {
-  try {
-    await navigator.clipboard.writeText(text);
-    button.textContent = "Copied";
-  } catch {
-    // Without the right to the clipboard the text is marked, for the keys of the browser.
-    getSelection().selectAllChildren(button.parentElement.querySelector("code"));
-    button.textContent = "Marked";
-  }
-  setTimeout(() => { button.textContent = "Copy"; }, 1500);
-}
-
 function show(news) {
   state = news;
-  SIDES.forEach((_, side) => fetchPicture(side).catch(() => { shown[side] = null; }));
+  pictures.follow(state);
   const [a, b] = state.sides;
   const isOne = a.number === b.number;
   find("state").textContent = isOne ? progress(0).replace("A:", "A and B:") : `${progress(0)}; ${progress(1)}`;
@@ -115,16 +79,32 @@ function show(news) {
     else if (box.dataset.failure) box.textContent = "";
     box.dataset.failure = side.failure ?? "";
   });
-  find("stage").style.aspectRatio = a.width / a.height;
-  picture.setFrame(a.width, a.height);
-  find("difference").textContent = state.difference === null ? "" : `A and B differ by an RMSE of ${short(state.difference, 3)}`;
+  // Until the first picture is there; a later one brings its own shape.
+  if (!picture.images[0]) frame(a.width, a.height);
+  find("difference").textContent = difference(isOne);
   drawChart(find("chart"), isOne ? [a] : [a, b]);
-  showCommands();
+  commands.show(state);
   panel.refresh(state, picture);
 }
 
-/** Keeps the settings in the address, so that a reload or a bookmark has them. */
+/** Says how far both films are from each other. */
+function difference(isOne) {
+  const [a, b] = state.sides;
+  if (isOne) return a.display === b.display ? "" : "A and B are one film, shown in two ways";
+  return state.difference === null ? "" : `A and B differ by an RMSE of ${short(state.difference, 3)} in linear light`;
+}
+
+/** Keeps the settings in the address, so that a reload or a bookmark has them; not as often as a slider moves. */
+let keptAt = -Infinity;
+let keeping = null;
 function keep(menus) {
+  clearTimeout(keeping);
+  const early = keptAt + REST - performance.now();
+  if (early > 0) {
+    keeping = setTimeout(() => keep(menus), early);
+    return;
+  }
+  keptAt = performance.now();
   const both = [0, 1].map((side) => menus.settings(side));
   history.replaceState(null, "", `#${encodeURIComponent(JSON.stringify(both))}`);
 }
@@ -144,11 +124,44 @@ find("scene").textContent = `${page.scene} on ${page.device}`;
 const menus = new Menus(page, (side) => {
   keep(menus);
   return send(side, menus.settings(side));
+}, async () => {
+  keep(menus);
+  // Films change places as they are; settings that were on their way come after it.
+  await fetch(`swap?tab=${tab}`, { method: "POST", body: "" }).catch(() => {});
+  SIDES.forEach((_, side) => send(side, menus.settings(side)));
 });
 kept()?.forEach((settings, side) => menus.apply(side, settings));
 
-const events = new EventSource(`events?tab=${tab}`);
-events.addEventListener("open", () => [0, 1].forEach((side) => send(side, menus.settings(side))));
-events.addEventListener("message", (event) => show(JSON.parse(event.data)));
-events.addEventListener("error", () => { find("state").textContent = "the program does not answer; trying again …"; });
-addEventListener("pagehide", () => events.close());
+/** Follows the events of the tab; tells why where the program refuses them, and tries again. */
+function follow() {
+  const events = new EventSource(`events?tab=${tab}`);
+  const end = () => events.close();
+  addEventListener("pagehide", end);
+  events.addEventListener("open", () => SIDES.forEach((_, side) => send(side, menus.settings(side))));
+  events.addEventListener("message", (event) => show(JSON.parse(event.data)));
+  events.addEventListener("error", async () => {
+    find("state").textContent = "the program does not answer; trying again …";
+    // A browser tries again by itself, but not after a refusal.
+    if (events.readyState !== EventSource.CLOSED) return;
+    removeEventListener("pagehide", end);
+    const why = await refusal();
+    if (why) find("state").textContent = why;
+    setTimeout(follow, AGAIN);
+  });
+}
+
+/** Returns what the program says instead of events. */
+async function refusal() {
+  const control = new AbortController();
+  try {
+    const answer = await fetch(`events?tab=${tab}`, { signal: control.signal });
+    if (!answer.ok) return (await answer.text()).trim();
+  } catch {
+    // It does not answer at all.
+  } finally {
+    control.abort();
+  }
+  return "";
+}
+
+follow();

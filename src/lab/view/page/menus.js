@@ -1,16 +1,18 @@
-// The menus of both sides, from the program's own table of options, and the text fields for keys of the scene.
+// The menus of both sides, from the program's own table of options, sliders beside some, and the text fields for keys of the
+// scene.
 import { SIDES, element, find } from "./dom.js";
 
 /** After the last key in a text field, before it is sent, in milliseconds. */
 const REST = 500;
 
 export class Menus {
-  /** `changed` is called with a side whose settings have changed. */
-  constructor(page, changed) {
+  /** `changed` is called with a side whose settings have changed, `swapped` once both have changed places. */
+  constructor(page, changed, swapped) {
     this.first = page.first;
     this.changed = changed;
+    this.swapped = swapped;
     this.fields = [new Map(), new Map()];
-    const body = find("menus").tBodies[0];
+    const [film, display] = find("menus").tBodies;
     for (const choice of page.choices) {
       const row = element("tr", {}, element("th", { scope: "row", title: choice.help }, choice.name.replace("sampler.*.", "sampler ")));
       SIDES.forEach((name, side) => {
@@ -20,9 +22,9 @@ export class Menus {
         field.dataset.side = name;
         field.addEventListener("change", () => this.note(side));
         this.fields[side].set(choice.name, field);
-        row.append(element("td", {}, field));
+        row.append(element("td", {}, this.slid(choice, side, field)));
       });
-      body.append(row);
+      (choice.is_display ? display : film).append(row);
     }
     SIDES.forEach((name, side) => {
       const area = find(`set-${name}`);
@@ -40,7 +42,7 @@ export class Menus {
       const [a, b] = [0, 1].map((side) => this.settings(side));
       this.apply(0, b);
       this.apply(1, a);
-      [0, 1].forEach((side) => this.note(side));
+      this.swapped();
     });
     find("reset").addEventListener("click", () => [0, 1].forEach((side) => {
       this.apply(side, { options: {}, set: [] });
@@ -50,12 +52,34 @@ export class Menus {
 
   menu({ values, own }) {
     const words = values.map((value) => element("option", { value }, value));
-    return element("select", {}, element("option", { value: "" }, own === null ? "as the scene" : `(${own})`), ...words);
+    return element("select", {}, element("option", { value: "" }, own === null ? "(scene's)" : `(${own})`), ...words);
   }
 
   text({ name, own }) {
     const kind = name === "size" ? { inputmode: "text" } : { inputmode: "decimal" };
     return element("input", { type: "text", placeholder: own ?? "", autocomplete: "off", ...kind });
+  }
+
+  /** Returns a field with the slider beside it, where the option has one: its neutral place is the empty field. */
+  slid({ name, help, slider, own }, side, field) {
+    if (!slider) return field;
+    const [min, max, step, neutral] = slider;
+    const label = `${name} of ${SIDES[side].toUpperCase()} as a slider: ${help}`;
+    const made = element("input", { type: "range", min, max, step, "aria-label": label, "data-slider": name, "data-side": SIDES[side] });
+    const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
+    field.show = () => {
+      made.value = isNumber(field.value.trim()) ? field.value.trim() : neutral;
+      made.setAttribute("aria-valuetext", field.value.trim() || own);
+    };
+    made.addEventListener("input", () => {
+      field.value = made.value === own ? "" : made.value;
+      this.note(side);
+    });
+    made.addEventListener("dblclick", () => {
+      field.value = "";
+      this.note(side);
+    });
+    return element("div", { class: "slid" }, field, made);
   }
 
   /** Marks what differs from the scene, and tells that a side has changed. */
@@ -66,7 +90,10 @@ export class Menus {
   }
 
   mark(side) {
-    for (const field of this.fields[side].values()) field.classList.toggle("chosen", field.value.trim() !== "");
+    for (const field of this.fields[side].values()) {
+      field.classList.toggle("chosen", field.value.trim() !== "");
+      field.show?.();
+    }
   }
 
   /** Returns a side's settings as the program takes them. */

@@ -10,6 +10,9 @@ const OUTLINED = 6;
 export class Picture {
   constructor(canvas, wipe, output) {
     Object.assign(this, { canvas, wipe, output });
+    // A screen with wider primaries shows all colours of a picture that has them.
+    const colorSpace = matchMedia("(color-gamut: p3)").matches ? "display-p3" : "srgb";
+    this.context = canvas.getContext("2d", { colorSpace });
     this.images = [null, null];
     this.frame = [0, 0];
     this.isFitted = true;
@@ -31,7 +34,8 @@ export class Picture {
     const ratio = window.devicePixelRatio || 1;
     [this.canvas.width, this.canvas.height] = this.size.map((side) => Math.round(side * ratio));
     if (this.isFitted) this.fit();
-    this.draw();
+    // At once: a canvas is empty after a change of its size.
+    this.drawNow();
   }
 
   setFrame(width, height) {
@@ -135,7 +139,7 @@ export class Picture {
   }
 
   drawNow() {
-    const context = this.canvas.getContext("2d");
+    const { context } = this;
     const ratio = window.devicePixelRatio || 1;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const [width, height] = this.size;

@@ -1,7 +1,9 @@
-// What the pixel under the crosshair is made of: its values on both sides, its surface, its samples, and what it reads of
-// textures, with the footprint drawn on the texels.
+// What the pixel under the crosshair is made of: its values on both sides, in the film and as shown, its surface, its samples,
+// and what it reads of textures, with the footprint drawn on the texels.
 import { SIDES, drawn, element, short } from "./dom.js";
 
+/** Names of gamuts for people. */
+const GAMUTS = { srgb: "sRGB", "display-p3": "Display P3" };
 /** Colours by which surfaces are told apart. */
 const COLORS = 8;
 
@@ -10,6 +12,7 @@ export class PixelPanel {
     Object.assign(this, { box, title, address });
     this.isAsking = false;
     this.shown = "";
+    this.cards = [];
   }
 
   /** Shows the crosshair's pixel; the newest one while another is asked for. */
@@ -36,7 +39,7 @@ export class PixelPanel {
   }
 
   key(state, picture) {
-    return [picture.cross, picture.sideOfCross(), ...state.sides.map((side) => `${side.number}/${side.spp}`)].join();
+    return [picture.cross, picture.sideOfCross(), ...state.sides.map((side) => `${side.number}/${side.spp}/${side.display}`)].join();
   }
 
   async ask(state, picture) {
@@ -50,30 +53,49 @@ export class PixelPanel {
       const answer = await fetch(this.address(side, place));
       return answer.ok ? answer.json() : { error: `the program answered ${answer.status}` };
     };
-    const told = isOne ? [await of(0)] : await Promise.all([of(0), of(1)]);
-    this.draw(told, isOne ? 0 : front, cross, isOne);
+    const isSame = isOne && state.sides[0].display === state.sides[1].display;
+    const told = isSame ? [await of(0)] : await Promise.all([of(0), of(1)]);
+    await this.draw(told, isSame ? 0 : front, cross, isOne);
   }
 
-  draw(told, front, cross, isOne) {
+  async draw(told, front, cross, isOne) {
     const own = told[front];
     const name = isOne ? "" : ` of ${SIDES[front].toUpperCase()}`;
     this.title.textContent = `Pixel ${cross.join(", ")}${name}`;
     if (own.error) {
-      this.box.replaceChildren(element("p", { class: "error" }, own.error));
+      this.place([[own.error, () => element("p", { class: "error" }, own.error)]]);
       return;
     }
-    const cards = [this.values(told, own, isOne), this.samples(own)];
-    cards.push(...own.look_ups.map((lookUp) => this.lookUp(lookUp)));
-    this.box.replaceChildren(...cards.filter((card) => card));
+    await Promise.all(own.look_ups.map(({ window: seen }) => seen && decoded(seen.png)));
+    this.place([
+      [[told.map(({ value }) => value), own.surface, isOne], () => this.values(told, own, isOne)],
+      ...(own.samples.length ? [[[own.samples, own.surfaces], () => this.samples(own)]] : []),
+      ...own.look_ups.map((lookUp) => [lookUp, () => this.lookUp(lookUp)]),
+    ]);
+  }
+
+  /** Places cards, each with what it is made of; one that is there already stays. */
+  place(cards) {
+    const texts = cards.map(([of]) => JSON.stringify(of));
+    cards.forEach(([, make], i) => {
+      if (texts[i] === this.cards[i]) return;
+      const old = i < this.cards.length ? this.box.children[i] : null;
+      if (old) old.replaceWith(make());
+      else if (i === 0) this.box.replaceChildren(make());
+      else this.box.append(make());
+    });
+    while (this.box.children.length > cards.length) this.box.lastChild.remove();
+    this.cards = texts;
   }
 
   values(told, front, isOne) {
     const rows = [];
-    told.forEach((own, side) => {
-      if (!own.value) return;
-      const of = isOne ? "" : ` ${SIDES[side].toUpperCase()}`;
-      rows.push([`linear${of}`, own.value.linear.map((value) => short(value, 5)).join(" ")]);
-      rows.push([`sRGB${of}`, own.value.srgb.join(" ")]);
+    told.forEach(({ value }, side) => {
+      if (!value) return;
+      const of = ` ${SIDES[side].toUpperCase()}`;
+      const linear = value.linear.map((channel) => short(channel, 5)).join(" ");
+      if (side === 0 || !isOne) rows.push([`film${isOne ? "" : of}, linear`, linear]);
+      rows.push([`shown${told.length === 1 ? "" : of}, ${GAMUTS[value.gamut] ?? value.gamut}`, value.shown.join(" ")]);
     });
     const { surface } = front;
     if (surface) {
@@ -83,11 +105,12 @@ export class PixelPanel {
     } else {
       rows.push(["surface", "background"]);
     }
-    return card("Value and centre", facts(rows));
+    const made = card("Value and centre", facts(rows));
+    made.classList.add("values");
+    return made;
   }
 
   samples({ samples, surfaces }) {
-    if (!samples.length) return null;
     const reach = Math.max(0.06, ...samples.flatMap(([x, y]) => [-x, -y, x - 1, y - 1]));
     const side = 1 + 2 * reach;
     const dots = samples.map(([x, y, surface]) => drawn("circle", {
@@ -102,9 +125,16 @@ export class PixelPanel {
   }
 
   lookUp(own) {
-    const rows = [["uv", own.uv.slice(0, 2).map((value) => short(value, 5)).join(" ")]];
+    const [u, v, w] = own.uv.map((value) => short(value, 5));
+    const rows = [own.depth || !own.size ? ["uvw", `${u} ${v} ${w}`] : ["uv", `${u} ${v}`]];
+    if (own.face) rows.unshift(["face", own.face]);
     if (own.size) {
-      rows.push(["texel", `${own.texel.join(", ")} of ${own.size.join(" × ")}`]);
+      const size = own.depth ? [...own.size, own.depth] : own.size;
+      rows.push(["texel", own.texel ? `${own.texel.join(", ")} of ${size.join(" × ")}` : "none: the border's colour"]);
+      if (own.in_file) {
+        const { tile, texel, size: of } = own.in_file;
+        rows.push(["in the file", `${tile ? `tile ${tile}, ` : ""}${texel.join(", ")} of ${of.join(" × ")}`]);
+      }
       rows.push(["level", `${short(own.level, 3)} of 0 to ${own.levels - 1}`]);
       rows.push(["footprint", `${own.texels.map((value) => short(value, 3)).join(" × ")} texels`]);
       rows.push(["filter", `${own.filter}, mip ${own.mip}`], ["address", own.address.join(", ")]);
@@ -124,6 +154,15 @@ function facts(rows) {
   return element("dl", { class: "facts" }, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, String(value))]));
 }
 
+/** Waits until the browser has decoded a picture, so that it is not empty at first. */
+function decoded(png) {
+  const image = new Image();
+  image.src = data(png);
+  return image.decode().catch(() => {});
+}
+
+const data = (png) => `data:image/png;base64,${png}`;
+
 /** Draws texels with the parallelogram of the pixel's footprint and the ellipse within it. */
 function footprint({ png, side, level, centre: [x, y], axes: [[ax, ay], [bx, by]] }) {
   const corner = (s, t) => `${x + (s * ax + t * bx) / 2},${y + (s * ay + t * by) / 2}`;
@@ -135,5 +174,5 @@ function footprint({ png, side, level, centre: [x, y], axes: [[ax, ay], [bx, by]
   ]);
   const what = level === null ? "The texture around the pixel's footprint" : `Texels of level ${level} around the pixel's footprint`;
   return drawn("svg", { class: "drawing", viewBox: `0 0 ${side} ${side}`, role: "img", "aria-label": what },
-    drawn("title", {}, what), drawn("image", { href: `data:image/png;base64,${png}`, width: side, height: side }), ...shapes);
+    drawn("title", {}, what), drawn("image", { href: data(png), width: side, height: side }), ...shapes);
 }
