@@ -17,10 +17,11 @@ pub fn texel(look_up: &LookUp<'_>) -> Option<Vec<u32>> {
     let modes = [how.address_u, how.address_v, how.address_w];
     let axes = if image.kind == TextureKind::Volume { 3 } else { 2 };
     let index = |axis: usize| {
-        let (mode, size) = (modes[axis], f64::from(image.size[axis]));
+        let size = f64::from(image.size[axis]);
+        let mode = if image.kind == TextureKind::Cube { Address::ClampToEdge } else { modes[axis] };
         let shift = if how.texel_center == TexelCenter::Integer { 0.5 / size } else { 0.0 };
         let at = coordinate.at[axis] + shift;
-        if mode == Address::ClampToBorder && image.kind != TextureKind::Cube && !(0.0..1.0).contains(&at) {
+        if mode == Address::ClampToBorder && !(0.0..1.0).contains(&at) {
             return None;
         }
         Some(((place_in_tile(mode, at) * size).floor().max(0.0) as u32).min(image.size[axis] - 1))

@@ -23,14 +23,15 @@ fn near(a: &Value, b: f32, what: &str) {
 }
 
 /// Compares every pixel of a small picture of a scene.
-fn compare(name: &str, mip: &str) {
-    let arguments = ["--size", "24x18", "--spp", "4", "--mip", mip, "--device", "oracle"];
+fn compare(name: &str, mip: &str, filter: &str) {
+    let arguments = ["--size", "24x18", "--spp", "4", "--mip", mip, "--filter", filter, "--device", "oracle"];
     let view = View::of_file(&std::path::absolute(path(name)).unwrap(), &arguments);
     let mut tab = view.tab("t");
     assert!(tab.done()["sides"][0]["failure"].is_null());
     let mut scene = load(&path(name)).unwrap();
     let mip = moire::internal::texture::sampler_spec::LevelUse::from_name(mip);
-    Changes { size: Some(SIZE), spp: Some(4), mip, ..Changes::default() }.apply(&mut scene).unwrap();
+    let filter = moire::internal::texture::sampler_spec::Filter::from_name(filter);
+    Changes { size: Some(SIZE), spp: Some(4), mip, filter, ..Changes::default() }.apply(&mut scene).unwrap();
     prune(&mut scene);
     let (options, on) = (Options::default(), [On::Oracle]);
     let wanted = [Aov::Uv, Aov::Level, Aov::Texels, Aov::Depth, Aov::Material];
@@ -75,8 +76,10 @@ fn compare(name: &str, mip: &str) {
 
 #[test]
 fn pixels_agree_with_layers_and_the_picture() {
-    compare("horizon", "linear");
-    compare("lecture", "none");
+    compare("horizon", "linear", "linear");
+    compare("horizon", "linear", "ewa");
+    compare("lecture", "none", "nearest");
+    compare("environment", "nearest", "anisotropic");
 }
 
 #[test]

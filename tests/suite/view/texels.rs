@@ -44,10 +44,11 @@ const PLANE: &str =
 
 /// A scene of which each pixel shows one texel; `material` are the lines of mapping and model.
 fn scene(texture: &str, sampler: &str, material: &str, rest: &str) -> String {
+    let space = if texture.starts_with("procedural") { "" } else { "color_space = 'srgb'\n" };
     format!(
         "[camera]\neye = [0.2, 0.1, 3]\nlook_at = [0.1, 0, 0]\northographic_height = 1.9\n\
          [image]\nwidth = {}\nheight = {}\n[sampling]\npattern = 'center'\n\
-         [[texture]]\nname = 't'\ncolor_space = 'srgb'\n{texture}\n[[sampler]]\nname = 's'\nfilter = 'nearest'\n{sampler}\n\
+         [[texture]]\nname = 't'\n{space}{texture}\n[[sampler]]\nname = 's'\nfilter = 'nearest'\n{sampler}\n\
          [[material]]\nname = 'm'\nmodel = 'unlit'\ntexture = 't'\nsampler = 's'\n{material}\n{rest}",
         SIZE[0], SIZE[1]
     )
@@ -152,7 +153,28 @@ fn texels_are_those_of_the_picture_on_meshes_tiles_cubes_and_environments() {
     compare(&sky(faces, solid), folder.path(), &face);
     compare(&sky(FILE, ""), folder.path(), &one);
     let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 3.0\nmaterial = 'm'\n";
+    let slices = "slices = ['f0.png', 'f1.png', 'f2.png', 'f3.png', 'f4.png', 'f5.png']";
+    let block = "mapping = { kind = 'solid', scale = [0.9, 1.1, 1.0], rotate = 20.0 }";
+    let slice = |look_up: &Value| format!("f{}.png", look_up["texel"][2]);
+    compare(&scene(slices, "", block, ball).replace("0.2, 0.1, 3]", "0.2, 0.1, 9]"), folder.path(), &slice);
     compare(&scene(faces, "", solid, ball).replace("0.2, 0.1, 3]", "0.2, 0.1, 9]"), folder.path(), &face);
+}
+
+#[test]
+fn windows_of_computed_textures_show_what_the_picture_shows() {
+    let folder = folder();
+    let mapping = "mapping = { kind = 'surface', scale = [0.4, 0.4], rotate = 31.0 }";
+    let (pixels, shown) = told(folder.path(), &scene("procedural = 'noise'", "", mapping, PLANE));
+    let far = |own: &Value, color: &[u8]| {
+        let seen = in_window(&own["look_ups"][0]["window"]);
+        seen.iter().zip(color).map(|(a, b)| u64::from(a.abs_diff(*b))).max().unwrap()
+    };
+    let differences: Vec<u64> =
+        pixels.iter().zip(shown.chunks_exact(3)).map(|(own, color)| far(own, color)).collect();
+    let mean = differences.iter().sum::<u64>() as f64 / differences.len() as f64;
+    let spread = shown.iter().max().unwrap() - shown.iter().min().unwrap();
+    // A window's pixel is a 32nd of the texture's unit.
+    assert!(mean < 4.0 && spread > 60, "{mean}: {differences:?}; {spread}");
 }
 
 #[test]

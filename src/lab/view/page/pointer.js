@@ -50,7 +50,8 @@ export function followPointer(picture, stage) {
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? event.deltaY * 30 : event.deltaY;
-    picture.zoomBy(-lines / 120, place(event));
+    // Two fingers on a touchpad come as a wheel with Ctrl, in small steps.
+    picture.zoomBy(-lines / (event.ctrlKey ? 20 : 120), place(event));
   }, { passive: false });
 
   canvas.addEventListener("keydown", (event) => {
