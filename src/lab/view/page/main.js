@@ -94,9 +94,11 @@ function difference(isOne) {
   return state.difference === null ? "" : `A and B differ by an RMSE of ${short(state.difference, 3)} in linear light`;
 }
 
-/** Keeps the settings in the address, so that a reload or a bookmark has them; not as often as a slider moves. */
+/** When the address was changed last, and the change that waits. */
 let keptAt = -Infinity;
 let keeping = null;
+
+/** Keeps the settings in the address, so that a reload or a bookmark has them; not as often as a slider moves. */
 function keep(menus) {
   clearTimeout(keeping);
   const early = keptAt + REST - performance.now();
@@ -112,7 +114,8 @@ function keep(menus) {
 function kept() {
   try {
     const both = JSON.parse(decodeURIComponent(location.hash.slice(1)));
-    return both.length === 2 && both.every((own) => own.options && own.set) ? both : null;
+    const isOwn = (own) => typeof own.options === "object" && own.options && Array.isArray(own.set);
+    return both.length === 2 && both.every(isOwn) ? both : null;
   } catch {
     return null;
   }
