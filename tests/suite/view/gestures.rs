@@ -94,7 +94,9 @@ fn the_command_is_copied_or_marked_to_be_copied() {
     assert_eq!(browser.run(&page, "getSelection().toString()"), command);
     // The button stays the same one, with the focus, while pictures arrive.
     browser.run(&page, "document.querySelector('#commands button').focus()");
-    browser.run(&page, "(() => { const own = document.querySelector('[data-option=spp][data-side=a]'); own.value = '64'; own.dispatchEvent(new Event('change')); })()");
+    let more = "(() => { const own = document.querySelector('[data-option=spp][data-side=a]'); own.value = '64'; \
+                own.dispatchEvent(new Event('change')); })()";
+    browser.run(&page, more);
     browser.until(&page, &format!("{COMMAND}.includes('--spp 64')"));
     assert_eq!(
         browser.run(&page, "document.activeElement === document.querySelector('#commands button')"),
