@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use moire::internal::core::film::Film;
-use moire::internal::lab::metrics::{compare, read_picture};
+use moire::internal::lab::metrics::{Halves, compare, read_picture};
 
 use crate::{Bench, Outcome, Run};
 
@@ -65,14 +65,9 @@ struct Reference {
 impl Reference {
     fn new(bench: &Bench, scene: &str) -> Outcome<Reference> {
         let spp = std::env::var("MOIRE_REFERENCE_SPP").unwrap_or(REFERENCE_SPP.into());
-        let [first, second] =
-            [Self::part(bench, scene, "101", &spp)?, Self::part(bench, scene, "202", &spp)?];
-        let mse = (0.5 * compare(&first, &second)?.rmse).powi(2);
-        let mut mean = first;
-        for (pixel, other) in mean.pixels.iter_mut().zip(&second.pixels) {
-            *pixel = std::array::from_fn(|c| 0.5 * (pixel[c] + other[c]));
-        }
-        Ok(Reference { mean, mse })
+        let [a, b] = [Self::part(bench, scene, "101", &spp)?, Self::part(bench, scene, "202", &spp)?];
+        let halves = Halves { a, b };
+        Ok(Reference { mean: halves.mean(), mse: halves.rmse()?.powi(2) })
     }
 
     /// Renders one of the two, unless it is there already.

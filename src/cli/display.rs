@@ -8,8 +8,8 @@ use super::{DISPLAY, named_parser};
 use crate::core::counted::verb;
 use crate::output::{DisplayTransform, Format, Gamut, ToneMap, WriteOptions, parse_kelvin, parse_stops};
 
-/// What becomes of light on a screen.
-#[derive(Args, Debug)]
+/// What becomes of a film's colours in pictures for screens.
+#[derive(Args, Clone, Debug, Default)]
 pub struct DisplayArgs {
     /// Exposure in stops, before the tone map [default: 0]
     #[arg(long, value_name = "EV", value_parser = parse_stops, allow_negative_numbers = true, help_heading = DISPLAY)]
@@ -39,7 +39,11 @@ pub struct FileArgs {
 }
 
 impl DisplayArgs {
-    fn transform(&self) -> DisplayTransform {
+    /// The names of these options.
+    pub const NAMES: [&str; 4] = ["exposure", "white-balance", "tone-map", "gamut"];
+
+    /// Returns what becomes of colours.
+    pub fn transform(&self) -> DisplayTransform {
         let default = DisplayTransform::default();
         DisplayTransform {
             exposure: self.exposure.unwrap_or(default.exposure),
@@ -49,15 +53,25 @@ impl DisplayArgs {
         }
     }
 
-    /// Returns the options that were given, by name, with their values as words.
-    pub fn options(&self) -> impl Iterator<Item = (String, String)> {
-        let options = [
-            ("exposure", self.exposure.map(|stops| stops.to_string())),
-            ("white-balance", self.white_balance.map(|kelvin| kelvin.to_string())),
-            ("tone-map", self.tone_map.map(|map| map.name().to_owned())),
-            ("gamut", self.gamut.map(|gamut| gamut.name().to_owned())),
+    /// Returns the options that were given, with their values as words.
+    pub fn given(&self) -> Vec<(&'static str, String)> {
+        let values = [
+            self.exposure.map(|stops| stops.to_string()),
+            self.white_balance.map(|kelvin| kelvin.to_string()),
+            self.tone_map.map(|map| map.name().to_owned()),
+            self.gamut.map(|gamut| gamut.name().to_owned()),
         ];
-        options.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?)))
+        Self::NAMES.into_iter().zip(values).filter_map(|(name, value)| Some((name, value?))).collect()
+    }
+
+    /// Returns these options, and those of `base` that they do not state.
+    pub fn over(self, base: &DisplayArgs) -> DisplayArgs {
+        DisplayArgs {
+            exposure: self.exposure.or(base.exposure),
+            white_balance: self.white_balance.or(base.white_balance),
+            tone_map: self.tone_map.or(base.tone_map),
+            gamut: self.gamut.or(base.gamut),
+        }
     }
 }
 
@@ -76,7 +90,7 @@ impl FileArgs {
 
     /// Returns warnings for options that concern no output.
     pub fn without_effect(&self, outputs: &Outputs, has_beauty: bool) -> Vec<String> {
-        let shown: Vec<String> = self.display.options().map(|(name, _)| format!("--{name}")).collect();
+        let shown: Vec<String> = self.display.given().iter().map(|(name, _)| format!("--{name}")).collect();
         let shows = |format: Format| !matches!(format, Format::Exr | Format::Hdr);
         let has = |wanted: Format| outputs.formats().any(|format| format == wanted);
         let given = |name: &str, is_given: bool| if is_given { vec![name.to_owned()] } else { Vec::new() };

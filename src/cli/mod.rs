@@ -26,6 +26,8 @@ pub mod texture;
 mod texture_levels;
 mod typed;
 mod vary;
+mod vary_mistakes;
+mod vary_values;
 pub mod verify;
 pub mod version;
 pub mod view;

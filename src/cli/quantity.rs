@@ -13,6 +13,11 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Parses a number of things; whether there may be so many is for the scene to say.
+pub(super) fn whole(text: &str) -> Result<u32, String> {
+    text.trim().parse().map_err(|_| format!("expected a whole number from 0 to {}", u32::MAX))
+}
+
 /// Parses a time; without a unit it is in seconds.
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     let text = text.trim();

@@ -4,12 +4,14 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::display::DisplayArgs;
 use super::outputs::check_distinct;
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::render::check_inputs_kept;
 use super::render_args::parse_part;
 use super::vary::{self, Combination, Vary};
+use super::vary_mistakes::of_keys;
 use super::{DEVICE, MEASURING, OUTPUT};
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
@@ -19,17 +21,15 @@ use crate::lab::metrics::read_picture;
 use crate::lab::sheet::plan::{Cell, Job, Plan, ReferenceChoice, View};
 use crate::lab::sheet::record::Record;
 use crate::lab::sheet::{self, Content};
-use crate::lab::study::plan::next_count;
 use crate::lab::study::{label, quote};
-use crate::output::{self, Format, Named, WriteOptions};
-use crate::scene::model::{Pattern, Scene};
+use crate::output::{self, DisplayTransform, Format, Named, WriteOptions};
+use crate::scene::model::Scene;
 use crate::scene::prune::prune;
 use crate::scene::{MAX_SPP, advice, is_standard_input};
 use crate::texture::sampler_spec::SamplerSpec;
 
-/// Samples of the reference relative to those of the cell with the most, and the fewest that it has.
-const SAMPLE_FACTOR: u32 = 16;
-const MIN_REFERENCE: u32 = 1024;
+/// The most samples of each half of a reference, unless their number is given.
+const MAX_HALF: u32 = 1 << 14;
 
 /// Compare settings in one labelled picture or page
 ///
@@ -66,7 +66,8 @@ pub struct SheetArgs {
     /// Reference: a picture file, or none [default: many samples without a prefilter, on the device]
     #[arg(long, value_name = "FILE|none", help_heading = MEASURING)]
     reference: Option<String>,
-    /// Samples per pixel of the rendered reference [default: 16 times the most of a cell, at least 1024]
+    /// Samples per pixel of the rendered reference [default: as many as it takes to judge the cells, within about as much
+    /// time as they take]
     #[arg(long, value_name = "N", help_heading = MEASURING, conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SPP)))]
     reference_spp: Option<u32>,
     /// Renders of each cell, of whose times the median counts
@@ -74,6 +75,8 @@ pub struct SheetArgs {
     repeats: u32,
     #[command(flatten)]
     overrides: Overrides,
+    #[command(flatten)]
+    display: DisplayArgs,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
     /// [default: discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
@@ -119,7 +122,7 @@ pub fn run(args: &SheetArgs) -> Result<ExitCode> {
     }
     let sheet = sheet?;
     let mut record = sheet.record.clone();
-    record.warnings = warnings;
+    record.warnings.splice(..0, warnings);
     record.outputs = outputs.iter().map(|output| output.path.display().to_string()).collect();
     write(&outputs, &Content::new(&plan, sheet))?;
     report(args, &record)?;
@@ -160,7 +163,7 @@ fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
 
 /// Returns what is to be rendered, and warnings about it.
 fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
-    let (axes, combinations) = vary::combine(&args.vary, &args.overrides)?;
+    let (axes, combinations) = vary::combine(&args.vary, (&args.overrides, &args.display))?;
     if args.columns.is_some() && axes.len() > 1 {
         return Err(Error::with_help(
             "--columns arranges the values of one setting, and the first of several has its own columns",
@@ -168,29 +171,30 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
         ));
     }
     let base = args.overrides.load(&args.scene, false)?;
+    let samples = args.reference_spp.map(|all| all.div_ceil(2));
     let mut scenes = Vec::with_capacity(combinations.len());
     for combination in &combinations {
-        let mut scene = combination.overrides.load(&args.scene, false)?;
+        let read = combination.overrides.load(&args.scene, false);
+        let mut scene = read.map_err(|error| of_keys(&combination.settings, error))?;
         let file = scene.clone();
         let applied = combination.overrides.apply(&mut scene).map(|_| scene);
         scenes.push((file, applied));
     }
-    let most = scenes.iter().filter_map(|(_, scene)| scene.as_ref().ok()).map(|s| s.sampling.samples()).max();
-    let spp = reference_samples(args, most.unwrap_or(1))?;
     let mut warnings: Vec<String> = Vec::new();
     let mut cells = Vec::with_capacity(combinations.len());
     for (combination, (file, applied)) in combinations.into_iter().zip(scenes) {
         let job = match applied {
-            Ok(scene) => Ok(job(args, &combination, [&base, &file], scene, spp)?),
+            Ok(scene) => Ok(job(args, &combination, [&base, &file], scene, samples)?),
             Err(why) => Err(why.to_string()),
         };
         let told = job.iter().flat_map(|job| advice::of_scene(&job.scene)).collect::<Vec<_>>();
         warnings.extend(told.into_iter().filter(|told| !warnings.contains(told)).collect::<Vec<_>>());
         let command = command(args, &combination);
-        cells.push(Cell { at: combination.at, settings: combination.settings, command, job });
+        let Combination { at, settings, film_of, display, .. } = combination;
+        cells.push(Cell { at, settings, command, film_of, display: display.transform(), job });
     }
     let reference = match args.reference.as_deref() {
-        None => ReferenceChoice::Rendered,
+        None => ReferenceChoice::Rendered { samples },
         Some("none") => ReferenceChoice::None,
         Some(name) => ReferenceChoice::File { name: name.to_owned(), film: read_picture(Path::new(name))? },
     };
@@ -208,7 +212,8 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
         columns: args.columns,
     };
     let (title, scene) = (title(args), args.scene.display().to_string());
-    Ok((Plan { title, scene, axes, cells, reference, repeats: args.repeats, view }, warnings))
+    let display = args.display.transform();
+    Ok((Plan { title, scene, axes, cells, reference, repeats: args.repeats, view, display }, warnings))
 }
 
 /// Returns the work of a cell. `base` is the scene as it is read without what varies, `file` with it.
@@ -217,7 +222,7 @@ fn job(
     combination: &Combination,
     [base, file]: [&Scene; 2],
     mut scene: Scene,
-    spp: u32,
+    samples: Option<u32>,
 ) -> Result<Job> {
     let goal = combination.overrides.goal();
     let mut reference = file.clone();
@@ -229,7 +234,8 @@ fn job(
         }
     }
     if args.reference.is_none() {
-        combination.overrides.as_reference(&args.overrides, spp).apply(&mut reference).map_err(|why| {
+        let most = samples.unwrap_or(MAX_HALF);
+        combination.overrides.as_reference(&args.overrides, most).apply(&mut reference).map_err(|why| {
             Error::with_help(
                 format!("no reference without a prefilter can be rendered: {why}"),
                 "name a picture with --reference, or --reference none",
@@ -241,25 +247,17 @@ fn job(
     Ok(Job { scene, reference, goal })
 }
 
-/// Returns the samples of each half of the reference.
-fn reference_samples(args: &SheetArgs, most: u32) -> Result<u32> {
-    let all =
-        args.reference_spp.unwrap_or(most.saturating_mul(SAMPLE_FACTOR).max(MIN_REFERENCE)).min(MAX_SPP);
-    next_count(Pattern::Stratified, all.div_ceil(2)).ok_or_else(|| {
-        Error::new(format!("--reference-spp {all}: there is no number of strata from there on"))
-    })
-}
-
 fn title(args: &SheetArgs) -> String {
     let stem = args.scene.file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
-    let fixed = args.overrides.given().into_iter().filter(|(name, _)| *name != "size");
+    let given = [args.overrides.given(), args.display.given()].concat();
+    let fixed = given.into_iter().filter(|(name, _)| *name != "size");
     let words = fixed.map(|(name, value)| label::setting(name, &value));
     std::iter::once(stem).chain(words).collect::<Vec<_>>().join(", ")
 }
 
 fn command(args: &SheetArgs, combination: &Combination) -> String {
     let mut words = vec!["moire".to_owned(), "render".into(), args.scene.display().to_string()];
-    let given = combination.overrides.given();
+    let given = [combination.overrides.given(), combination.display.given()].concat();
     words.extend(given.into_iter().flat_map(|(name, value)| [format!("--{name}"), value]));
     if let Some(device) = &args.device {
         words.extend(["--device".to_owned(), device.clone()]);
@@ -271,7 +269,8 @@ fn command(args: &SheetArgs, combination: &Combination) -> String {
 fn write(outputs: &[Output], content: &Content) -> Result<()> {
     let page = outputs.iter().any(|output| output.is_page).then(|| sheet::html(content)).transpose()?;
     let film = outputs.iter().any(|output| !output.is_page).then(|| sheet::compose(content));
-    let options = &WriteOptions::default();
+    let display = DisplayTransform { gamut: content.gamut, ..DisplayTransform::default() };
+    let options = &WriteOptions { display, ..WriteOptions::default() };
     let pictures: Vec<Named<'_>> = outputs
         .iter()
         .filter(|output| !output.is_page)

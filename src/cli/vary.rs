@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 
 use clap::{CommandFactory, Parser};
 
+use super::display::DisplayArgs;
 use super::overrides::Overrides;
+use super::vary_mistakes::{unknown, wrong};
+use super::vary_values::values;
 use crate::core::error::{Error, Result};
 use crate::lab::sheet::plan::{Axis, MAX_AXES, MAX_CELLS};
 use crate::lab::study::label;
-use crate::scene::suggestion;
 
 /// The options that can vary, as a command line of their own.
 #[derive(Parser, Debug)]
@@ -17,6 +19,8 @@ use crate::scene::suggestion;
 struct CellArgs {
     #[command(flatten)]
     overrides: Overrides,
+    #[command(flatten)]
+    display: DisplayArgs,
 }
 
 /// A name with its values.
@@ -32,49 +36,33 @@ pub(super) struct Combination {
     pub(super) at: Vec<usize>,
     pub(super) settings: BTreeMap<String, String>,
     pub(super) overrides: Overrides,
+    pub(super) display: DisplayArgs,
+    /// The first combination that differs in nothing but how its film is shown.
+    pub(super) film_of: usize,
 }
 
 /// Parses the value of `--vary`.
 pub(super) fn parse(text: &str) -> Result<Vary, String> {
-    let expected = "expected NAME=VALUE,VALUE,…, such as filter=nearest,linear,ewa";
-    let (name, list) = text.split_once('=').ok_or(expected)?;
+    const EXPECTED: &str = "expected NAME=VALUE,VALUE,…, such as filter=nearest,linear,ewa or spp=1..64x4";
+    let (name, list) = text.split_once('=').ok_or(EXPECTED)?;
     let name = name.trim().trim_start_matches('-');
-    let values = split(list);
+    if name.is_empty() {
+        return Err(format!("a name is missing; {EXPECTED}"));
+    }
+    let name = if is_key(name) { name.to_owned() } else { name.replace('_', "-").to_lowercase() };
+    if !is_key(&name) && !names().contains(&name) {
+        return Err(unknown(&name, &names()));
+    }
+    let told = |what: String| format!("{name}: {what}");
+    let values = values(list).map_err(told)?;
     if values.iter().any(String::is_empty) {
-        return Err(format!("a value is missing; {expected}"));
+        return Err(format!("{name}: a value is missing; {EXPECTED}"));
     }
     let twice = values.iter().enumerate().find(|(i, value)| values[..*i].contains(value));
     if let Some((_, value)) = twice {
-        return Err(format!("{value} is named twice"));
-    }
-    let name = if is_key(name) { name.to_owned() } else { name.replace('_', "-") };
-    if !is_key(&name) && !names().contains(&name) {
-        return Err(unknown(&name));
+        return Err(format!("{name}: {value} is named twice"));
     }
     Ok(Vary { name, values })
-}
-
-/// Splits at commas outside of brackets and quotes.
-fn split(list: &str) -> Vec<String> {
-    let mut values = vec![String::new()];
-    let (mut depth, mut quote) = (0i32, None);
-    for letter in list.chars() {
-        match (letter, quote) {
-            (',', None) if depth == 0 => {
-                values.push(String::new());
-                continue;
-            }
-            ('[' | '{' | '(', None) => depth += 1,
-            (']' | '}' | ')', None) => depth -= 1,
-            ('"' | '\'', None) => quote = Some(letter),
-            (own, Some(open)) if own == open => quote = None,
-            _ => {}
-        }
-        if let Some(value) = values.last_mut() {
-            value.push(letter);
-        }
-    }
-    values.into_iter().map(|value| value.trim().to_owned()).collect()
 }
 
 fn is_key(name: &str) -> bool {
@@ -88,15 +76,6 @@ fn names() -> Vec<String> {
     longs.filter(|long| *long != "set").map(str::to_owned).collect()
 }
 
-fn unknown(name: &str) -> String {
-    let names = names();
-    let near = suggestion(name, names.iter().map(String::as_str));
-    format!(
-        "\"{name}\" is no option that can vary: {}; and keys of the scene, such as sampler.NAME.address{near}",
-        names.join(", ")
-    )
-}
-
 /// Returns the words of a setting on a command line.
 fn words(name: &str, value: &str) -> Vec<String> {
     if is_key(name) {
@@ -107,10 +86,15 @@ fn words(name: &str, value: &str) -> Vec<String> {
 }
 
 /// Returns the axes of a sheet, and all combinations of their values, the first axis fastest.
-pub(super) fn combine(varied: &[Vary], base: &Overrides) -> Result<(Vec<Axis>, Vec<Combination>)> {
+pub(super) fn combine(
+    varied: &[Vary],
+    base: (&Overrides, &DisplayArgs),
+) -> Result<(Vec<Axis>, Vec<Combination>)> {
     check(varied, base)?;
     for vary in varied {
-        vary.values.iter().try_for_each(|value| parsed(&words(&vary.name, value), &vary.name).map(drop))?;
+        for value in &vary.values {
+            CellArgs::try_parse_from(words(&vary.name, value)).map_err(|e| wrong(&vary.name, value, &e))?;
+        }
     }
     let count = varied.iter().map(|vary| vary.values.len()).product::<usize>();
     if count > MAX_CELLS {
@@ -129,8 +113,11 @@ pub(super) fn combine(varied: &[Vary], base: &Overrides) -> Result<(Vec<Axis>, V
         }
         let chosen = || varied.iter().zip(&at).map(|(vary, at)| (&vary.name, &vary.values[*at]));
         let all: Vec<String> = chosen().flat_map(|(name, value)| words(name, value)).collect();
+        let CellArgs { overrides, display } = CellArgs::try_parse_from(all).map_err(|e| wrong("", "", &e))?;
         combinations.push(Combination {
-            overrides: parsed(&all, "")?.over(base),
+            overrides: overrides.over(base.0),
+            display: display.over(base.1),
+            film_of: film_of(varied, &at),
             settings: chosen().map(|(name, value)| (name.clone(), value.clone())).collect(),
             at,
         });
@@ -140,14 +127,23 @@ pub(super) fn combine(varied: &[Vary], base: &Overrides) -> Result<(Vec<Axis>, V
     Ok((varied.iter().map(axis).collect(), combinations))
 }
 
-fn check(varied: &[Vary], base: &Overrides) -> Result<()> {
+/// Returns the combination with the first of all values that change how a film is shown, and nothing else.
+fn film_of(varied: &[Vary], at: &[usize]) -> usize {
+    let shows = |vary: &Vary| DisplayArgs::NAMES.contains(&vary.name.as_str());
+    let place = |(vary, at): (&Vary, &usize)| [vary.values.len(), if shows(vary) { 0 } else { *at }];
+    let places = varied.iter().zip(at).map(place);
+    // The first axis is the fastest.
+    places.rev().fold(0, |index, [count, at]| index * count + at)
+}
+
+fn check(varied: &[Vary], (overrides, display): (&Overrides, &DisplayArgs)) -> Result<()> {
     if varied.len() > MAX_AXES {
         return Err(Error::with_help(
             format!("--vary is given {} times, and a sheet has columns, rows and blocks", varied.len()),
             "vary at most three settings, and fix the others",
         ));
     }
-    let given = base.given();
+    let given = [overrides.given(), display.given()].concat();
     for (i, vary) in varied.iter().enumerate() {
         if varied[..i].iter().any(|other| other.name == vary.name) {
             return Err(Error::with_help(
@@ -165,30 +161,9 @@ fn check(varied: &[Vary], base: &Overrides) -> Result<()> {
     Ok(())
 }
 
-fn parsed(words: &[String], varied: &str) -> Result<Overrides> {
-    let wrong = |error: clap::Error| {
-        let text = error.to_string();
-        let lines =
-            text.lines().take_while(|line| !line.starts_with("Usage") && !line.starts_with("For more"));
-        let said: Vec<&str> = lines.map(str::trim).filter(|line| !line.is_empty()).collect();
-        let said = said.join("; ");
-        let place = if varied.is_empty() { "--vary".to_owned() } else { format!("--vary {varied}") };
-        Error::new(format!("{place}: {}", said.trim_start_matches("error: ")))
-    };
-    CellArgs::try_parse_from(words).map(|args| args.overrides).map_err(wrong)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn commas_within_brackets_and_quotes_separate_nothing() {
-        assert_eq!(split("a,b"), ["a", "b"]);
-        assert_eq!(split("[1, 2],[3,[4]], {a=1,b=2}"), ["[1, 2]", "[3,[4]]", "{a=1,b=2}"]);
-        assert_eq!(split("\"a,b\",'c,\"d'"), ["\"a,b\"", "'c,\"d'"]);
-        assert_eq!(split("a,"), ["a", ""]);
-    }
 
     #[test]
     fn names_are_those_of_options_or_keys() {
@@ -203,6 +178,20 @@ mod tests {
         assert!(wrong("fliter=a").contains("did you mean \"filter\"?"));
         assert!(wrong("samples=1").contains("did you mean \"spp\"?"));
         assert!(wrong("filter").contains("expected NAME=VALUE") && wrong("filter=a,,b").contains("missing"));
-        assert!(wrong("spp=1,4,1").contains("1 is named twice"));
+        assert!(wrong("spp=1,4,1").contains("spp: 1 is named twice"));
+        assert!(wrong("=1,4").contains("a name is missing"));
+    }
+
+    #[test]
+    fn combinations_that_differ_in_their_display_have_the_film_of_the_first() {
+        let vary = |text: &str| parse(text).unwrap();
+        let varied = [vary("exposure=-1,0,1"), vary("spp=1,4"), vary("tone-map=none,agx")];
+        let (_, all) = combine(&varied, (&no_overrides(), &DisplayArgs::default())).unwrap();
+        let films: Vec<usize> = all.iter().map(|combination| combination.film_of).collect();
+        assert_eq!(films, [0, 0, 0, 3, 3, 3, 0, 0, 0, 3, 3, 3]);
+    }
+
+    fn no_overrides() -> Overrides {
+        CellArgs::try_parse_from([""; 0]).unwrap().overrides
     }
 }

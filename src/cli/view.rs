@@ -62,7 +62,8 @@ pub fn run(args: &ViewArgs) -> Result<ExitCode> {
         .map_err(|e| Error::new(format!("cannot listen to Ctrl-C: {e}")))?;
     let camera = args.overrides.camera();
     let source = Source { path: args.scene.clone(), camera, device: args.device.clone() };
-    let options = args.overrides.options().chain(args.display.options()).collect();
+    let display = args.display.given().into_iter().map(|(name, value)| (name.to_owned(), value));
+    let options = args.overrides.options().chain(display).collect();
     let first = Settings { options, set: args.overrides.settings() };
     let page = Page::open(source, first, &on, args.port)?;
     super::print(&page.address)?;

@@ -9,7 +9,7 @@ mod fixed;
 
 pub use auto::Auto;
 pub use beam::Beam;
-pub use fixed::{Cone, Fixed};
+pub use fixed::{Cone, Fixed, Run};
 
 use adaptive::{Goal, Outcome, PixelEstimates};
 

@@ -11,6 +11,7 @@ use super::gamut::Gamut;
 use super::quantise::srgb8;
 use super::tone_map::ToneMap;
 use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 
 /// The exposures, in stops, that a picture takes.
 pub const STOPS: RangeInclusive<f64> = -64.0..=64.0;
@@ -66,6 +67,13 @@ impl DisplayTransform {
     pub fn codes(&self, pixel: [f32; 3]) -> [u8; 3] {
         let prepared = self.prepare();
         if prepared.is_identity { pixel } else { prepared.color(pixel) }.map(srgb8)
+    }
+
+    /// Returns the light of a screen of any primaries, in linear colours of sRGB and without a bound: what is written with
+    /// the gamut alone becomes the picture.
+    pub fn developed(&self, film: &Film) -> Film {
+        let prepared = DisplayTransform { gamut: Gamut::Srgb, ..*self }.prepare();
+        Film { pixels: prepared.colors(&film.pixels).into_owned(), ..*film }
     }
 
     /// Returns the transform with its matrices.

@@ -1,11 +1,16 @@
 //! What outlives a render. Input: the devices and decoded textures of one. Output: the same for the next one, where files
 //! and descriptions have not changed. Devices keep their pipelines.
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::time::SystemTime;
 
+use rayon::prelude::*;
+
 use crate::core::error::Result;
 use crate::gpu::Gpu;
+use crate::scene::model::Scene;
+use crate::scene::texture_advice::of_textures;
 use crate::texture::data::TextureData;
 use crate::texture::decode::AllowedFloats;
 use crate::texture::load::load_with_notes;
@@ -22,7 +27,7 @@ pub struct Kept {
 impl Kept {
     /// Begins to keep textures; without that, only devices are kept.
     pub fn with_textures() -> Kept {
-        Kept { textures: KeptTextures(Some(Vec::new())), ..Kept::default() }
+        Kept { textures: KeptTextures::of_last_scene(), ..Kept::default() }
     }
 
     /// Forgets the devices, of which one is lost.
@@ -34,13 +39,27 @@ impl Kept {
 /// A texture with its notes, of which each names its file.
 type Decoded = (TextureData, Vec<String>);
 
-/// Decoded textures, unless none are kept.
+/// Textures as they are read: each is decoded once, for as long as it is kept.
 #[derive(Default)]
-pub(super) struct KeptTextures(Option<Vec<(Origin, Decoded)>>);
+pub struct KeptTextures {
+    kept: Vec<(Origin, Decoded)>,
+    lasting: Lasting,
+}
+
+/// How long textures are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Lasting {
+    /// Not at all.
+    #[default]
+    Never,
+    /// Until another scene is read.
+    Scene,
+    Always,
+}
 
 /// What a texture was decoded from.
 #[derive(PartialEq)]
-pub(super) struct Origin {
+struct Origin {
     source: TextureSource,
     values: AllowedFloats,
     files: Vec<FileStamp>,
@@ -56,24 +75,58 @@ pub fn stamp(path: &Path) -> FileStamp {
 
 impl Origin {
     /// Returns the origin of a texture as its files are now.
-    pub(super) fn now(source: &TextureSource, values: AllowedFloats) -> Origin {
+    fn now(source: &TextureSource, values: AllowedFloats) -> Origin {
         let files = source.content.files().into_iter().map(stamp).collect();
         Origin { source: source.clone(), values, files }
     }
 }
 
 impl KeptTextures {
-    /// Returns a texture that is kept, or decodes it.
-    pub(super) fn load(&self, origin: &Origin) -> Result<Decoded> {
-        let found = self.0.as_ref().and_then(|kept| kept.iter().find(|(known, _)| known == origin));
+    /// Keeps the textures of a scene until another one is read.
+    pub fn of_last_scene() -> KeptTextures {
+        KeptTextures { lasting: Lasting::Scene, ..KeptTextures::default() }
+    }
+
+    /// Keeps the textures of all scenes.
+    pub fn of_all_scenes() -> KeptTextures {
+        KeptTextures { lasting: Lasting::Always, ..KeptTextures::default() }
+    }
+
+    /// Returns the textures of a scene, and warnings about them. Those that are not kept, or whose files have changed, are
+    /// decoded on all threads.
+    pub fn read(&mut self, scene: &Scene, values: AllowedFloats) -> Result<(Vec<TextureData>, Vec<String>)> {
+        // Before they are read: a file that changes meanwhile is read again.
+        let origins: Vec<Origin> = scene.textures.iter().map(|source| Origin::now(source, values)).collect();
+        // All first: of several faults, the one of the first texture is told.
+        let decoded: Vec<Result<Decoded>> = origins.par_iter().map(|origin| self.decoded(origin)).collect();
+        let decoded = decoded.into_iter().collect::<Result<Vec<_>>>()?;
+        self.keep(origins, &decoded);
+        let (textures, notes): (Vec<_>, Vec<_>) = decoded.into_iter().unzip();
+        // Several textures may be of one file.
+        let mut told = HashSet::new();
+        let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
+        let doubts = notes.chain(of_textures(scene, &textures)).collect();
+        Ok((textures, doubts))
+    }
+
+    fn decoded(&self, origin: &Origin) -> Result<Decoded> {
+        let found = self.kept.iter().find(|(known, _)| known == origin);
         let decode = || load_with_notes(&origin.source, origin.values);
         found.map_or_else(decode, |(_, decoded)| Ok(decoded.clone()))
     }
 
-    /// Keeps the textures of a scene in place of those of the scene before.
-    pub(super) fn keep(&mut self, origins: Vec<Origin>, decoded: &[Decoded]) {
-        if let Some(kept) = &mut self.0 {
-            *kept = origins.into_iter().zip(decoded.iter().cloned()).collect();
+    fn keep(&mut self, origins: Vec<Origin>, decoded: &[Decoded]) {
+        match self.lasting {
+            Lasting::Never => return,
+            Lasting::Scene => self.kept.clear(),
+            Lasting::Always => {}
+        }
+        for (origin, decoded) in origins.into_iter().zip(decoded) {
+            if !self.kept.iter().any(|(known, _)| *known == origin) {
+                // Of a file that has changed, the earlier texels are of no use.
+                self.kept.retain(|(known, _)| known.source != origin.source || known.values != origin.values);
+                self.kept.push((origin, decoded.clone()));
+            }
         }
     }
 }

@@ -2,13 +2,12 @@
 //! what is kept, the packed scene with its textures, and an empty film; all are made at the same time, as each of them
 //! mostly waits.
 
-use std::collections::HashSet;
 use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::kept::{Kept, KeptTextures, Origin};
+use super::kept::{Kept, KeptTextures};
 use super::options::{On, Options};
 use super::rivals::RivalScenes;
 use crate::core::error::Result;
@@ -16,7 +15,6 @@ use crate::core::film::Film;
 use crate::gpu::Gpu;
 use crate::pack::{self, MipPlacement, PackedScene};
 use crate::scene::model::Scene;
-use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::AllowedFloats;
 
 /// Pixels of films whose memory is made present beforehand, and of a page of that memory.
@@ -87,17 +85,7 @@ fn pack(
     mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<Packed> {
     let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
-    // Before they are read: a file that changes meanwhile is read again.
-    let origins: Vec<Origin> = scene.textures.iter().map(|t| Origin::now(t, values)).collect();
-    // All first: of several faults, the one of the first texture is told.
-    let textures: Vec<Result<_>> = origins.par_iter().map(|origin| kept.load(origin)).collect();
-    let textures = textures.into_iter().collect::<Result<Vec<_>>>()?;
-    kept.keep(origins, &textures);
-    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
-    // Several textures may be of one file.
-    let mut told = HashSet::new();
-    let notes = notes.into_iter().flatten().filter(|note| told.insert(note.clone()));
-    let doubts: Vec<String> = notes.chain(of_textures(scene, &textures)).collect();
+    let (textures, doubts) = kept.read(scene, values)?;
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
     let copies = (!rivals.is_empty()).then(|| textures.clone());
     let packed = pack::pack_with(scene, textures, options.crop, mip_chains)?;

@@ -57,7 +57,7 @@ use crate::schema::specialization::Constant;
 
 pub use backend::DeviceBackend;
 pub use images::can_sample;
-pub use kept::{FileStamp, Kept, stamp};
+pub use kept::{FileStamp, Kept, KeptTextures, stamp};
 pub(crate) use mip_chain::{MipGenerator, MipSource};
 pub use options::{On, Options};
 pub use picture::{Picture, render_kept, render_on, render_scene};

@@ -1,5 +1,7 @@
 //! Chooses the integrator that renders a packed scene, and renders a prepared one by it.
 
+use std::ops::Range;
+
 use super::Report;
 use super::backend::DeviceBackend;
 use super::session::Prepared;
@@ -7,7 +9,7 @@ use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::integrators::adaptive::Goal;
-use crate::integrators::{Adaptive, Auto, Beam, Cone, Fixed, Integrator};
+use crate::integrators::{Adaptive, Auto, Beam, Cone, Fixed, Integrator, Run};
 use crate::pack::{PackedScene, Schedule};
 use crate::scene::model::Algorithm;
 
@@ -37,6 +39,15 @@ impl Prepared<'_, '_> {
     /// Renders once more. The report's times of loading and compiling are those of the first render.
     pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
         self.render_to_goal(None, progress)
+    }
+
+    /// Renders a run of the samples that it was prepared for, of a scene that is packed for equal samples in each pixel.
+    pub fn render_run(&self, samples: Range<u32>, progress: &dyn Progress) -> Result<Film> {
+        let [width, height] = self.scene.header.film_size.to_array();
+        let mut backend = DeviceBackend::new(self)?;
+        let run = Run { samples }.render(&mut backend, Film::new(width, height, 0), progress)?;
+        backend.finish()?;
+        Ok(run.film)
     }
 
     /// Renders as [`Prepared::render`] does; a scene that is sampled by batches ends at `goal`, by default its number

@@ -73,6 +73,15 @@ impl Algorithm {
     pub fn is_adaptive(self) -> bool {
         matches!(self, Algorithm::Adaptive | Algorithm::Auto)
     }
+
+    /// Returns the algorithm that reads textures in the same way: all that take samples read them alike, beams and cones
+    /// each in a way of their own.
+    pub const fn reads_textures_as(self) -> Algorithm {
+        match self {
+            Algorithm::Adaptive | Algorithm::Auto | Algorithm::Samples => Algorithm::Samples,
+            own @ (Algorithm::Beam | Algorithm::Cone) => own,
+        }
+    }
 }
 
 /// The sampling of a picture.

@@ -1,10 +1,12 @@
-//! `moire sheet`: the numbers of cells against `render` and `compare`, the pixels of the picture, cells that cannot be
-//! rendered, mistakes, and the page.
+//! `moire sheet`: the numbers of cells against `render` and `compare`, the pixels of the picture, how they are shown, the
+//! noise of references, cells that cannot be rendered, mistakes, and the page.
 
 mod browser;
 mod cells;
+mod display;
 mod mistakes;
 mod picture;
+mod reference;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

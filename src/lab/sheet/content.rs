@@ -3,13 +3,17 @@
 
 use super::plan::{Plan, ReferenceChoice};
 use super::record::{CellRecord, Record};
-use super::render::{Sheet, Shown};
+use super::render::Sheet;
+use super::shown::Shown;
 use crate::core::film::Film;
 use crate::core::range::Rect;
-use crate::lab::study::format::{error, samples, seconds};
+use crate::lab::study::format::{error, percent, samples, seconds};
 use crate::lab::study::pictures::false_color;
+use crate::output::{DisplayTransform, Gamut};
 use crate::scene::model::Scene;
 
+/// The share of an error from which on its uncertainty is told.
+const TOLD: f64 = 0.05;
 /// The columns of a sheet with one axis, unless their number is given.
 const COLUMNS: usize = 4;
 
@@ -56,6 +60,8 @@ pub struct Content {
     pub blocks: Vec<Block>,
     /// By how much the pixels of pictures are enlarged.
     pub factor: u32,
+    /// The primaries with which pictures are written.
+    pub gamut: Gamut,
     /// The value of the light end of the differences' colours.
     pub difference_scale: Option<f64>,
     /// Under what conditions it was measured, and how to read it.
@@ -74,6 +80,7 @@ impl Content {
             title: plan.title.clone(),
             blocks: blocks(plan, entries, extras),
             factor: plan.view.enlarged(),
+            gamut: plan.gamut(),
             difference_scale: scale.map(f64::from),
             notes,
         }
@@ -84,11 +91,7 @@ fn entry(plan: &Plan, cell: &CellRecord, shown: Option<Shown>, scale: Option<f32
     let why = || cell.error.clone().unwrap_or_else(|| "not rendered".into());
     let body = shown.map_or_else(|| Body::Missing(why()), |shown| picture(shown, scale));
     let mut caption = Vec::new();
-    if let (Some(rmse), Some(flip)) = (cell.rmse, cell.flip) {
-        caption.push(format!("RMSE {}, FLIP {flip:.3}", error(rmse)));
-    } else if cell.reference.is_some() {
-        caption.push("RMSE –: pixels that are no numbers".into());
-    }
+    caption.extend(errors(cell));
     if let Some(time) = cell.median_device_seconds {
         let is_said =
             plan.axes.iter().any(|axis| axis.name == "spp") && cell.taken == samples(cell.samples as u32);
@@ -101,6 +104,20 @@ fn entry(plan: &Plan, cell: &CellRecord, shown: Option<Shown>, scale: Option<f32
     }
     let description = format!("{}: {}", cell.label, caption.join(", "));
     Entry { heading: None, body, description, caption, command: Some(cell.command.clone()) }
+}
+
+/// Returns the line of a caption that tells the errors, if there is a reference.
+fn errors(cell: &CellRecord) -> Option<String> {
+    cell.reference?;
+    let Some(flip) = cell.flip else { return Some("RMSE –: pixels that are no numbers".into()) };
+    let rmse = match (cell.rmse, cell.rmse_deviation, cell.rmse_below) {
+        (Some(rmse), Some(deviation), _) if deviation > TOLD * rmse => {
+            format!("{} ± {}", error(rmse), percent(deviation / rmse))
+        }
+        (Some(rmse), _, _) => error(rmse),
+        (None, _, bound) => format!("below {}", error(bound.unwrap_or(f64::NAN))),
+    };
+    Some(format!("RMSE {rmse}, FLIP {flip:.3}"))
 }
 
 fn picture(shown: Shown, scale: Option<f32>) -> Body {
@@ -131,10 +148,10 @@ fn extras(plan: &Plan, sheet: &mut Sheet) -> Vec<Entry> {
         let own =
             record.and_then(|record| record.rmse).map(|rmse| format!("itself off by RMSE {}", error(rmse)));
         let kind = record.map(|record| match &plan.reference {
-            ReferenceChoice::Rendered => samples(record.samples),
+            ReferenceChoice::Rendered { .. } => samples(record.samples),
             _ => record.kind.clone(),
         });
-        let caption: Vec<String> = kind.into_iter().chain(own).collect();
+        let caption: Vec<String> = kind.into_iter().chain(own).chain(developed(plan)).collect();
         found.push(Entry {
             heading: Some("reference".into()),
             description: format!("The reference: {}", caption.join(", ")),
@@ -144,6 +161,23 @@ fn extras(plan: &Plan, sheet: &mut Sheet) -> Vec<Entry> {
         });
     }
     found
+}
+
+/// Returns how the reference is shown, if that varies among the cells.
+fn developed(plan: &Plan) -> Option<String> {
+    let first = plan.cells.first()?.display;
+    let DisplayTransform { exposure, white_balance, tone_map, .. } = plan.display;
+    let varies =
+        |differs: &dyn Fn(&DisplayTransform) -> bool| plan.cells.iter().any(|cell| differs(&cell.display));
+    let words = [
+        varies(&|d| d.exposure != first.exposure).then(|| format!("exposure {exposure}")),
+        varies(&|d| d.tone_map != first.tone_map).then(|| format!("tone map: {tone_map}")),
+        varies(&|d| d.white_balance != first.white_balance).then(|| {
+            white_balance.map_or("no white balance".into(), |kelvin| format!("white balance: {kelvin} K"))
+        }),
+    ];
+    let words: Vec<String> = words.into_iter().flatten().collect();
+    (!words.is_empty()).then(|| words.join(", "))
 }
 
 fn blocks(plan: &Plan, entries: Vec<Entry>, extras: Vec<Entry>) -> Vec<Block> {
@@ -202,21 +236,40 @@ fn notes(plan: &Plan, record: &Record) -> Vec<String> {
     };
     let mut notes =
         vec![format!("{size}{}; {times}, on the device, without loading and compiling", record.device)];
+    let (linear, likewise) = match plan.is_developed() {
+        true => (" before exposure, white balance and tone map,", ", shown likewise"),
+        false => ("", ""),
+    };
     if let Some(reference) = record.references.first() {
         let kind = match record.references.len() {
             1 => reference.kind.clone(),
-            many => format!("one for each of {many} views, {}", reference.kind),
+            many => format!("one for each of {many} views, {}", reference_of_views(record)),
         };
-        notes.push(format!("RMSE and FLIP of the whole picture against the reference: {kind}"));
+        let noise = if reference.rmse.is_some() { "; its own noise is taken out of the RMSE" } else { "" };
+        notes
+            .push(format!("RMSE and FLIP of the whole picture{linear} against the reference: {kind}{noise}"));
     }
     if let Some(scale) = record.difference_scale {
         notes.push(format!(
-            "lower pictures: difference from the reference, mean of three channels, from 0 (dark) to {} or more (light)",
+            "lower pictures: difference from the reference{likewise}, mean of three channels, from 0 (dark) to {} or more \
+             (light)",
             error(f64::from(scale))
         ));
     }
     if plan.view.zoom.is_some() && plan.view.enlarged() > 1 {
         notes.push(format!("each pixel of the part is shown as {0}×{0}", plan.view.enlarged()));
     }
+    notes.extend(record.warnings.iter().cloned());
     notes
+}
+
+/// Returns the words for references of several views, whose numbers of samples may differ.
+fn reference_of_views(record: &Record) -> String {
+    let counts = || record.references.iter().map(|reference| reference.samples);
+    match (counts().min(), counts().max()) {
+        (Some(fewest), Some(most)) if fewest != most => {
+            format!("{fewest} to {most} Sobol-Owen samples a pixel without a prefilter")
+        }
+        _ => record.references.first().map(|reference| reference.kind.clone()).unwrap_or_default(),
+    }
 }

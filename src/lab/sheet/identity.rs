@@ -4,7 +4,7 @@
 use std::fmt::{self, Write};
 use std::hash::{DefaultHasher, Hasher};
 
-use crate::scene::model::{Algorithm, PixelFilter, Sampling, Scene};
+use crate::scene::model::{PixelFilter, Sampling, Scene};
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// Everything that a session fixes: a scene without the choice of its samples.
@@ -21,13 +21,8 @@ pub(super) struct Identity {
 impl Identity {
     pub(super) fn of(scene: &Scene) -> Identity {
         let own = scene.sampling;
-        // Beams and cones read textures in another way than samples do.
-        let algorithm = match own.algorithm {
-            Algorithm::Adaptive | Algorithm::Auto | Algorithm::Samples => Algorithm::Samples,
-            other => other,
-        };
         let sampling = Sampling {
-            algorithm,
+            algorithm: own.algorithm.reads_textures_as(),
             footprint: own.footprint,
             precision: own.precision,
             max_depth: own.max_depth,

@@ -6,15 +6,14 @@ use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::lab::plot::html::{Header, Html, SHEET_SCRIPT, code, document, html, scroll, section};
 use crate::lab::study::format::error;
-use crate::lab::study::pictures::{data_uri, ramp_css};
-use crate::output::Format;
+use crate::lab::study::pictures::{data_uri_with, ramp_css};
+use crate::output::{DisplayTransform, Format, Gamut, WriteOptions};
 
 pub fn html(content: &Content) -> Result<String> {
-    let factor = content.factor;
     let commands = commands(content);
     let mut tables = Html::default();
     for block in &content.blocks {
-        tables = tables + table(block, factor)?;
+        tables = tables + table(block, content)?;
     }
     if let Some(scale) = content.difference_scale {
         tables = tables
@@ -46,7 +45,7 @@ fn commands(content: &Content) -> Html {
     html!("<details>{}{}</details>\n", summary, scroll("Commands", code(&all.join("\n"))))
 }
 
-fn table(block: &Block, factor: u32) -> Result<Html> {
+fn table(block: &Block, content: &Content) -> Result<Html> {
     let label = block.heading.as_deref().unwrap_or("pictures");
     let has_heads = block.rows.iter().any(|row| row.heading.is_some());
     let corner = if has_heads { html!("<td></td>") } else { Html::default() };
@@ -61,7 +60,7 @@ fn table(block: &Block, factor: u32) -> Result<Html> {
             row.heading.as_ref().map_or(Html::default(), |head| html!("<th scope=\"row\">{}</th>", head));
         let mut cells = Html::default();
         for entry in &row.entries {
-            cells = cells + html!("<td>{}</td>\n", figure(entry, factor)?);
+            cells = cells + html!("<td>{}</td>\n", figure(entry, content)?);
         }
         rows = rows + html!("<tr>{}{}</tr>\n", heading, cells);
     }
@@ -71,7 +70,7 @@ fn table(block: &Block, factor: u32) -> Result<Html> {
     Ok(html!("<div class=\"sheet\">{}</div>\n", scroll(label, table)))
 }
 
-fn figure(entry: &Entry, factor: u32) -> Result<Html> {
+fn figure(entry: &Entry, content: &Content) -> Result<Html> {
     let Entry { heading, body, description, caption, .. } = entry;
     let pictures = match body {
         Body::Missing(why) => html!("<p class=\"missing\">{}</p>\n", why),
@@ -79,7 +78,7 @@ fn figure(entry: &Entry, factor: u32) -> Result<Html> {
             let percent = |of: u32, all: u32| format!("{:.2}", 100.0 * f64::from(of) / f64::from(all.max(1)));
             html!(
                 "<span class=\"whole\">{}<span class=\"frame\" style=\"left:{}%;top:{}%;width:{}%;height:{}%\"></span></span>\n",
-                image(film, 1, description)?,
+                image(film, 1, content.gamut, description)?,
                 percent(part.x, full[0]),
                 percent(part.y, full[1]),
                 percent(part.width, full[0]),
@@ -87,11 +86,11 @@ fn figure(entry: &Entry, factor: u32) -> Result<Html> {
             )
         }
         Body::Picture { film, difference } => {
-            let own = seen(film, factor, description)?;
+            let own = seen(film, content, description)?;
             match difference {
                 None => own,
                 Some(difference) => {
-                    own + seen(difference, factor, &format!("Difference from the reference: {description}"))?
+                    own + seen(difference, content, &format!("Difference from the reference: {description}"))?
                 }
             }
         }
@@ -102,18 +101,20 @@ fn figure(entry: &Entry, factor: u32) -> Result<Html> {
 }
 
 /// Returns a picture under the glass.
-fn seen(film: &Film, factor: u32, description: &str) -> Result<Html> {
+fn seen(film: &Film, content: &Content, description: &str) -> Result<Html> {
     Ok(html!(
         "<span class=\"seen\" tabindex=\"0\">{}<span class=\"glass\"></span></span>\n",
-        image(film, factor, description)?
+        image(film, content.factor, content.gamut, description)?
     ))
 }
 
-fn image(film: &Film, factor: u32, description: &str) -> Result<Html> {
+fn image(film: &Film, factor: u32, gamut: Gamut, description: &str) -> Result<Html> {
     let class = if factor > 1 { "pixels" } else { "" };
+    let options =
+        WriteOptions { display: DisplayTransform { gamut, ..Default::default() }, ..Default::default() };
     Ok(html!(
         "<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" class=\"{}\" style=\"width:{}px\"/>",
-        data_uri(film, Format::Png)?,
+        data_uri_with(film, Format::Png, &options)?,
         film.width * factor,
         film.height * factor,
         description,

@@ -7,6 +7,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::range::Rect;
 use crate::integrators::adaptive::Goal;
+use crate::output::{DisplayTransform, Gamut};
 use crate::scene::model::Scene;
 
 /// Columns, rows and blocks.
@@ -34,6 +35,10 @@ pub struct Cell {
     pub settings: BTreeMap<String, String>,
     /// The command that renders the picture alone.
     pub command: String,
+    /// The cell whose film is shown: the first of those that differ only in how they are shown.
+    pub film_of: usize,
+    /// How the film is shown.
+    pub display: DisplayTransform,
     /// What is rendered, or why it cannot be.
     pub job: Result<Job, String>,
 }
@@ -51,8 +56,10 @@ pub struct Job {
 /// What errors are measured against.
 #[derive(Clone, Debug)]
 pub enum ReferenceChoice {
-    /// As many samples as the references of the cells have.
-    Rendered,
+    /// By so many samples of each half, or as many as it takes to judge the cells.
+    Rendered {
+        samples: Option<u32>,
+    },
     File {
         name: String,
         film: Film,
@@ -86,11 +93,39 @@ pub struct Plan {
     pub reference: ReferenceChoice,
     pub repeats: u32,
     pub view: View,
+    /// How everything is shown, but for what varies.
+    pub display: DisplayTransform,
 }
 
 impl Plan {
     pub fn jobs(&self) -> impl Iterator<Item = &Job> {
         self.cells.iter().filter_map(|cell| cell.job.as_ref().ok())
+    }
+
+    /// Returns the cells with a film of their own.
+    pub fn with_films(&self) -> impl Iterator<Item = (usize, &Job)> {
+        let own = self.cells.iter().enumerate().filter(|(i, cell)| cell.film_of == *i);
+        own.filter_map(|(i, cell)| Some((i, cell.job.as_ref().ok()?)))
+    }
+
+    /// Returns the cells that show the film of one.
+    pub fn showing(&self, index: usize) -> impl Iterator<Item = usize> {
+        let own = self.cells.iter().enumerate().filter(move |(_, cell)| cell.film_of == index);
+        own.map(|(i, _)| i)
+    }
+
+    /// Returns true if films are shown otherwise than they are.
+    pub fn is_developed(&self) -> bool {
+        self.displays().any(|display| *display != DisplayTransform::default())
+    }
+
+    /// Returns the primaries of the sheet: those in which all of its pictures can be shown.
+    pub fn gamut(&self) -> Gamut {
+        self.displays().map(|display| display.gamut).max().unwrap_or(Gamut::Srgb)
+    }
+
+    fn displays(&self) -> impl Iterator<Item = &DisplayTransform> {
+        self.cells.iter().map(|cell| &cell.display).chain([&self.display])
     }
 
     /// Refuses a plan of which nothing can be shown.

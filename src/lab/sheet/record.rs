@@ -17,6 +17,8 @@ pub struct ReferenceRecord {
     pub samples: u32,
     /// The RMSE of the reference itself, from its two halves.
     pub rmse: Option<f64>,
+    /// Wall seconds of its samples.
+    pub seconds: f64,
 }
 
 #[derive(Clone, Debug, Default, Serialize)]
@@ -38,8 +40,14 @@ pub struct CellRecord {
     /// The same by the device's timestamps.
     pub device_seconds: Vec<f64>,
     pub median_device_seconds: Option<f64>,
-    /// Against the reference, over the whole picture.
+    /// The cell whose film is shown, if it is another one: both differ only in how they are shown.
+    pub film_of: Option<usize>,
+    /// Of the linear film against the reference, over the whole picture, without the reference's own noise.
     pub rmse: Option<f64>,
+    /// The standard deviation that this noise gives it, unless the reference is a file.
+    pub rmse_deviation: Option<f64>,
+    /// What the RMSE is not above, where the noise does not tell more.
+    pub rmse_below: Option<f64>,
     pub flip: Option<f64>,
     /// The index of the reference.
     pub reference: Option<usize>,

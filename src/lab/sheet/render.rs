@@ -1,30 +1,23 @@
-//! Renders the cells of a plan, those of one reference after each other and among them those of one session. Input: the
-//! plan. Output: the record, and of each picture what is shown.
+//! Renders the cells of a plan, those of one reference after each other and among them those of one session, and then the
+//! reference. Input: the plan. Output: the record, and of each picture what is shown.
 
 use super::identity::Identity;
-use super::plan::{Cell, Job, Plan, ReferenceChoice, View};
+use super::judge::{Drawn, is_enough, judge, notes};
+use super::plan::{Cell, Job, Plan, ReferenceChoice};
 use super::record::{AxisRecord, CellRecord, Record, ReferenceRecord};
-use super::reference::Reference;
+use super::reference::{Extent, Reference};
 use super::sessions::Sessions;
+use super::shown::{Shown, shown, within};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
 use crate::gpu::Gpu;
-use crate::lab::metrics::compare;
-use crate::lab::metrics::flip::PerceptualFeatures;
+use crate::lab::metrics::Halves;
 use crate::lab::study::analysis::median;
 use crate::lab::study::format::samples_taken_by;
-use crate::lab::study::pictures::{self, Window};
+use crate::lab::study::pictures;
 use crate::render::Report;
 use crate::scene::model::{Algorithm, Scene};
-
-/// What is shown of a picture.
-pub struct Shown {
-    /// The part, in the pixels of the picture or averaged over squares.
-    pub film: Film,
-    /// |picture − reference|, the mean of three channels.
-    pub difference: Option<Vec<f32>>,
-}
 
 pub struct Sheet {
     pub record: Record,
@@ -38,129 +31,198 @@ pub struct Sheet {
 
 /// The width to which the whole picture is reduced.
 const WHOLE_WIDTH: u32 = 384;
+/// The time of a reference relative to that of the cells which it judges, and the least: of all together, and of each.
+const TIME_SHARE: f64 = 1.0;
+const MIN_SECONDS: f64 = 2.0;
+const MIN_VIEW_SECONDS: f64 = 0.25;
+/// The most bytes of pictures that wait for their reference.
+const MAX_WAITING: usize = 1 << 30;
 
 pub fn render(gpu: &Gpu, plan: &Plan, progress: &dyn Progress) -> Result<Sheet> {
-    let mut order: Vec<(Identity, Identity, usize)> = Vec::new();
-    for (i, cell) in plan.cells.iter().enumerate() {
-        if let Ok(job) = &cell.job {
-            order.push((reference_of(plan, job), Identity::of(&job.scene), i));
-        }
-    }
-    group(&mut order, |a, b| a.0 == b.0);
-    group(&mut order, |a, b| a.0 == b.0 && a.1 == b.1);
-    let alone = order.iter().all(|entry| entry.0 == order[0].0);
-
-    let total: f64 = order.iter().map(|entry| cost(plan, entry.2)).sum::<f64>()
-        + references(plan, &order).iter().map(|&i| reference_cost(plan, i)).sum::<f64>();
-    let mut done = 0.0;
-    let mut sheet = Sheet {
+    let views = views(plan);
+    let sheet = Sheet {
         record: empty_record(gpu, plan),
         pictures: plan.cells.iter().map(|_| None).collect(),
         reference: None,
         whole: None,
     };
-    let mut sessions = Sessions::new(gpu);
-    let mut current: Option<(Identity, Option<Reference>)> = None;
-    for (count, (view, _, index)) in order.iter().enumerate() {
-        let Some(job) = plan.cells[*index].job.as_ref().ok() else { continue };
-        let mut part = |seconds: f64| {
-            let from = done / total.max(1e-9);
-            done += seconds;
-            SubProgress { whole: progress, from, to: (done / total.max(1e-9)).min(1.0) }
-        };
-        if current.as_ref().is_none_or(|(own, _)| own != view) {
-            // Freed before the next one is made.
-            drop(current.take());
-            progress.describe("reference");
-            let reference = obtain(plan, &mut sessions, job, &part(reference_cost(plan, *index)))?;
-            sheet.record.references.extend(reference.as_ref().map(|r| r.record.clone()));
-            current = Some((view.clone(), reference));
-        }
-        let reference = current.as_ref().and_then(|(_, reference)| reference.as_ref());
-        let label = &sheet.record.cells[*index].label;
-        progress.describe(&format!("{label} ({} of {})", count + 1, order.len()));
-        let drawn = draw(plan, &mut sessions, job, &part(cost(plan, *index)));
-        let record = &mut sheet.record.cells[*index];
-        let (film, reports) = match drawn {
-            Ok(drawn) => drawn,
-            Err(Error::Interrupted) => return Err(Error::Interrupted),
-            Err(why) => {
-                record.error = Some(why.to_string());
-                continue;
-            }
-        };
-        measure(record, job, &film, &reports);
-        if let Some(reference) = reference {
-            record.reference = Some(sheet.record.references.len() - 1);
-            judge(record, &film, reference)?;
-        }
-        if sheet.whole.is_none() && plan.view.zoom.is_some() && alone {
-            let picture = reference.map_or(&film, |reference| &reference.film);
-            sheet.whole = Some(pictures::downscaled(picture, WHOLE_WIDTH));
-        }
-        if sheet.reference.is_none() && alone {
-            sheet.reference = reference.map(|reference| shown(&plan.view, &reference.film, None));
-        }
-        sheet.pictures[*index] = Some(shown(&plan.view, &film, reference));
-    }
-    finish(sheet)
+    let total: f64 = views.iter().map(|view| view_cost(plan, view)).sum();
+    let mut run = Run { plan, sessions: Sessions::new(gpu), sheet, views: views.len(), total, done: 0.0 };
+    views.iter().try_for_each(|view| run.view(view, progress))?;
+    finish(run.sheet)
 }
 
-/// Moves entries to the first one that is like them.
-fn group<T>(entries: &mut Vec<T>, alike: impl Fn(&T, &T) -> bool) {
+/// Returns the cells to render, those of one reference together and among them those of one session.
+fn views(plan: &Plan) -> Vec<Vec<usize>> {
+    let keys: Vec<(Identity, Identity, usize)> =
+        plan.with_films().map(|(i, job)| (reference_of(plan, job), Identity::of(&job.scene), i)).collect();
+    let views = groups(keys, |a, b| a.0 == b.0).into_iter();
+    let sorted = |view| groups(view, |a: &(Identity, Identity, usize), b| a.1 == b.1).into_iter().flatten();
+    views.map(|view| sorted(view).map(|key| key.2).collect()).collect()
+}
+
+/// Returns groups of entries that are alike, in the order of their first ones.
+fn groups<T>(entries: Vec<T>, alike: impl Fn(&T, &T) -> bool) -> Vec<Vec<T>> {
     let mut groups: Vec<Vec<T>> = Vec::new();
-    for entry in entries.drain(..) {
+    for entry in entries {
         match groups.iter_mut().find(|group| alike(&group[0], &entry)) {
             Some(group) => group.push(entry),
             None => groups.push(vec![entry]),
         }
     }
-    entries.extend(groups.into_iter().flatten());
+    groups
 }
 
 fn reference_of(plan: &Plan, job: &Job) -> Identity {
     // A file is the reference of all.
     let first = plan.jobs().next().unwrap_or(job);
-    let scene = if matches!(plan.reference, ReferenceChoice::Rendered) { job } else { first };
+    let scene = if matches!(plan.reference, ReferenceChoice::Rendered { .. }) { job } else { first };
     Identity::of(&scene.reference)
 }
 
-/// Returns the first cell of each reference.
-fn references(plan: &Plan, order: &[(Identity, Identity, usize)]) -> Vec<usize> {
-    if !matches!(plan.reference, ReferenceChoice::Rendered) {
-        return Vec::new();
-    }
-    let first = |i: &usize| *i == 0 || order[*i].0 != order[*i - 1].0;
-    (0..order.len()).filter(first).map(|i| order[i].2).collect()
-}
-
-/// Returns the samples of a picture, for the progress bar.
-fn samples(scene: &Scene) -> f64 {
-    f64::from(scene.sampling.samples()) * f64::from(scene.width) * f64::from(scene.height)
-}
-
+/// Returns what a cell costs, for the progress bar: samples.
 fn cost(plan: &Plan, index: usize) -> f64 {
+    let pixels = |scene: &Scene| f64::from(scene.width) * f64::from(scene.height);
+    let samples = |scene: &Scene| f64::from(scene.sampling.samples()) * pixels(scene);
     let job = plan.cells[index].job.as_ref();
     // Building pipelines takes as long as some samples.
     job.map_or(0.0, |job| f64::from(plan.repeats) * samples(&job.scene) + 1e6)
 }
 
-fn reference_cost(plan: &Plan, index: usize) -> f64 {
-    let job = plan.cells[index].job.as_ref();
-    let is_rendered = matches!(plan.reference, ReferenceChoice::Rendered);
-    job.ok().filter(|_| is_rendered).map_or(0.0, |job| 2.0 * samples(&job.reference) + 1e6)
+/// Returns what a view costs: a reference about as much as its cells.
+fn view_cost(plan: &Plan, view: &[usize]) -> f64 {
+    let cells: f64 = view.iter().map(|i| cost(plan, *i)).sum();
+    cells + if matches!(plan.reference, ReferenceChoice::Rendered { .. }) { cells } else { 0.0 }
 }
 
-fn obtain(
-    plan: &Plan,
-    sessions: &mut Sessions<'_>,
-    job: &Job,
-    progress: &dyn Progress,
-) -> Result<Option<Reference>> {
-    match &plan.reference {
-        ReferenceChoice::None => Ok(None),
-        ReferenceChoice::File { name, film } => Ok(Some(Reference::of_file(name, film))),
-        ReferenceChoice::Rendered => Reference::render(sessions, &job.reference, progress).map(Some),
+/// A sheet while it is rendered.
+struct Run<'a> {
+    plan: &'a Plan,
+    sessions: Sessions<'a>,
+    sheet: Sheet,
+    /// The number of views, each with a reference of its own.
+    views: usize,
+    /// The costs of all, and of what is done.
+    total: f64,
+    done: f64,
+}
+
+impl Run<'_> {
+    /// Renders the cells of a view, then their reference: that they are known tells how good it has to be.
+    fn view(&mut self, view: &[usize], progress: &dyn Progress) -> Result<()> {
+        let (mut waiting, mut reference): (Vec<Drawn>, _) = (Vec::new(), None);
+        let mut seconds = 0.0;
+        for (count, &index) in view.iter().enumerate() {
+            let Ok(job) = &self.plan.cells[index].job else { continue };
+            progress.describe(&format!(
+                "{} ({} of {})",
+                self.sheet.record.cells[index].label,
+                count + 1,
+                view.len()
+            ));
+            let part = self.part(cost(self.plan, index), progress);
+            let drawn = draw(self.plan, &mut self.sessions, job, &part);
+            let record = &mut self.sheet.record.cells[index];
+            match drawn {
+                Ok((film, reports)) => {
+                    measure(record, job, &film, &reports);
+                    seconds += record.seconds.iter().sum::<f64>();
+                    waiting.push(Drawn { index, film });
+                }
+                Err(Error::Interrupted) => return Err(Error::Interrupted),
+                Err(why) => record.error = Some(why.to_string()),
+            }
+            let bytes: usize = waiting.iter().map(|drawn| size_of_val(&drawn.film.pixels[..])).sum();
+            if bytes > MAX_WAITING {
+                self.settle(&mut waiting, &mut reference, [seconds, view_cost(self.plan, view)], progress)?;
+            }
+        }
+        self.settle(&mut waiting, &mut reference, [seconds, view_cost(self.plan, view)], progress)
+    }
+
+    fn part<'p>(&mut self, cost: f64, progress: &'p dyn Progress) -> SubProgress<'p> {
+        let from = self.done / self.total.max(1e-9);
+        self.done += cost;
+        SubProgress { whole: progress, from, to: (self.done / self.total.max(1e-9)).min(1.0) }
+    }
+
+    /// Judges the pictures that wait, by a reference that is made first if there is none yet. The cells of the view took
+    /// `seconds` so far.
+    fn settle(
+        &mut self,
+        waiting: &mut Vec<Drawn>,
+        reference: &mut Option<Reference>,
+        [seconds, cost]: [f64; 2],
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        let Some(first) = waiting.first() else { return Ok(()) };
+        if reference.is_none() {
+            progress.describe("reference");
+            let part = self.part(0.5 * cost, progress);
+            *reference = self.reference(first.index, waiting, seconds, &part)?;
+            self.sheet.record.references.extend(reference.as_ref().map(|r| r.record.clone()));
+        }
+        let reference = reference.as_ref();
+        if let Some(reference) = reference {
+            for Drawn { index, film } in waiting.iter() {
+                let record = &mut self.sheet.record.cells[*index];
+                record.reference = Some(self.sheet.record.references.len() - 1);
+                judge(record, film, reference)?;
+            }
+            let notes = notes(&self.sheet.record, waiting, reference)?;
+            self.sheet.record.warnings.extend(notes);
+        }
+        for drawn in waiting.drain(..) {
+            self.show(&drawn, reference);
+        }
+        Ok(())
+    }
+
+    fn reference(
+        &mut self,
+        first: usize,
+        waiting: &[Drawn],
+        seconds: f64,
+        progress: &dyn Progress,
+    ) -> Result<Option<Reference>> {
+        let Ok(job) = &self.plan.cells[first].job else { return Ok(None) };
+        let least = (MIN_SECONDS / self.views as f64).max(MIN_VIEW_SECONDS);
+        let is_enough = |halves: &Halves| is_enough(halves, waiting);
+        let enough = Extent::Enough { seconds: (TIME_SHARE * seconds).max(least), is_enough: &is_enough };
+        match &self.plan.reference {
+            ReferenceChoice::None => Ok(None),
+            ReferenceChoice::File { name, film } => Ok(Some(Reference::of_file(name, film))),
+            ReferenceChoice::Rendered { samples } => {
+                let extent = samples.map_or(enough, Extent::Samples);
+                Reference::render(&mut self.sessions, &job.reference, extent, progress).map(Some)
+            }
+        }
+    }
+
+    /// Keeps what is shown of a picture, in all cells that show it.
+    fn show(&mut self, drawn: &Drawn, reference: Option<&Reference>) {
+        let (plan, sheet) = (self.plan, &mut self.sheet);
+        if self.views == 1 {
+            let picture = reference.map_or(&drawn.film, |reference| &reference.film);
+            if sheet.whole.is_none() && plan.view.zoom.is_some() {
+                let whole = pictures::downscaled(&plan.display.developed(picture), WHOLE_WIDTH);
+                sheet.whole = Some(within(whole, plan, &plan.display));
+            }
+            if sheet.reference.is_none() {
+                sheet.reference =
+                    reference.map(|reference| shown(plan, &plan.display, &reference.film, None));
+            }
+        }
+        let record = sheet.record.cells[drawn.index].clone();
+        for i in plan.showing(drawn.index) {
+            sheet.pictures[i] = Some(shown(plan, &plan.cells[i].display, &drawn.film, reference));
+            if i != drawn.index {
+                let own = &mut sheet.record.cells[i];
+                let (settings, label) = (std::mem::take(&mut own.settings), std::mem::take(&mut own.label));
+                let command = std::mem::take(&mut own.command);
+                *own = CellRecord { settings, label, command, film_of: Some(drawn.index), ..record.clone() };
+            }
+        }
     }
 }
 
@@ -194,32 +256,6 @@ fn measure(record: &mut CellRecord, job: &Job, film: &Film, reports: &[Report]) 
     record.seconds = reports.iter().map(|report| report.seconds.render).collect();
     record.device_seconds = reports.iter().map(|report| report.device_render_seconds).collect();
     record.median_device_seconds = Some(median(&record.device_seconds));
-}
-
-fn judge(record: &mut CellRecord, film: &Film, reference: &Reference) -> Result<()> {
-    let comparison = compare(film, &reference.film)?;
-    record.rmse = Some(comparison.rmse).filter(|rmse| rmse.is_finite() && comparison.nan_pixels == 0);
-    record.flip = record.rmse.map(|_| PerceptualFeatures::of(film).mean(&reference.features));
-    Ok(())
-}
-
-fn shown(view: &View, film: &Film, reference: Option<&Reference>) -> Shown {
-    let part = view.part([film.width, film.height]);
-    let window = Window { x: part.x, y: part.y, width: part.width, height: part.height };
-    let step = view.reduced([film.width, film.height]);
-    let fitted = |film: &Film| {
-        let own = pictures::crop(film, window);
-        if step > 1 { pictures::averaged(&own, step) } else { own }
-    };
-    let difference = |reference: &Reference| {
-        let values =
-            pictures::differences(&pictures::crop(film, window), &pictures::crop(&reference.film, window));
-        let pixels = values.into_iter().map(|v| [v; 3]).collect();
-        let whole = Film { width: window.width, height: window.height, pixels, samples: 0 };
-        let reduced = if step > 1 { pictures::averaged(&whole, step) } else { whole };
-        reduced.pixels.into_iter().map(|pixel| pixel[0]).collect()
-    };
-    Shown { film: fitted(film), difference: reference.filter(|_| view.difference).map(difference) }
 }
 
 fn empty_record(gpu: &Gpu, plan: &Plan) -> Record {

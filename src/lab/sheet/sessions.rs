@@ -2,26 +2,40 @@
 //! Input: scenes. Output: films with what they took.
 
 use super::identity::Identity;
-use crate::core::error::Result;
+use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::gpu::Gpu;
 use crate::integrators::adaptive::Goal;
 use crate::pack;
-use crate::render::{MipChoice, Options, Report, Session, Tuning, render_on};
-use crate::scene::model::{Scene, TextureSource};
-use crate::texture;
-use crate::texture::data::TextureData;
+use crate::render::{KeptTextures, MipChoice, Options, Report, Session, Tuning, render_on};
+use crate::scene::model::Scene;
+use crate::texture::decode::AllowedFloats;
 
 pub(super) struct Sessions<'a> {
     gpu: &'a Gpu,
-    textures: Vec<(TextureSource, TextureData)>,
+    textures: KeptTextures,
     current: Option<(Identity, Session<'a>)>,
 }
 
 impl<'a> Sessions<'a> {
     pub(super) fn new(gpu: &'a Gpu) -> Sessions<'a> {
-        Sessions { gpu, textures: Vec::new(), current: None }
+        Sessions { gpu, textures: KeptTextures::of_all_scenes(), current: None }
+    }
+
+    /// Returns the session of a scene, in place of the one before unless that is the same.
+    pub(super) fn session(&mut self, scene: &Scene) -> Result<&Session<'a>> {
+        let identity = Identity::of(scene);
+        if self.current.as_ref().is_none_or(|(own, _)| *own != identity) {
+            // Freed first: two sessions may not fit on the device.
+            self.current = None;
+            let (textures, _) = self.textures.read(scene, AllowedFloats::Finite)?;
+            let packed = pack::pack_with(scene, textures, None, MipChoice::Auto.mip_chains(self.gpu.info()))?;
+            let session = Session::open(self.gpu, packed, false, &Tuning::default())?;
+            self.current = Some((identity, session));
+        }
+        let session = self.current.as_ref().map(|(_, session)| session);
+        session.ok_or_else(|| Error::new("no session is open"))
     }
 
     /// Renders a scene as often as `repeats` says; the pictures are the same, and the last one is returned.
@@ -31,27 +45,14 @@ impl<'a> Sessions<'a> {
         repeats: u32,
         progress: &dyn Progress,
     ) -> Result<(Film, Vec<Report>)> {
-        let identity = Identity::of(scene);
-        if self.current.as_ref().is_none_or(|(own, _)| *own != identity) {
-            // Freed first: two sessions may not fit on the device.
-            self.current = None;
-            let textures = self.textures_of(scene)?;
-            let packed = pack::pack_with(scene, textures, None, MipChoice::Auto.mip_chains(self.gpu.info()))?;
-            let session = Session::open(self.gpu, packed, false, &Tuning::default())?;
-            self.current = Some((identity, session));
+        let prepared = self.session(scene)?.prepare_sampling(scene)?;
+        let (mut film, report) = prepared.render(progress)?;
+        let mut reports = vec![report];
+        for _ in 1..repeats {
+            let (again, report) = prepared.render(progress)?;
+            film = again;
+            reports.push(report);
         }
-        let mut films = Vec::new();
-        let mut reports = Vec::new();
-        if let Some((_, session)) = &self.current {
-            let prepared = session.prepare_sampling(scene)?;
-            for _ in 0..repeats.max(1) {
-                films.clear();
-                let (film, report) = prepared.render(progress)?;
-                films.push(film);
-                reports.push(report);
-            }
-        }
-        let film = films.pop().unwrap_or_else(|| Film::new(scene.width, scene.height, 0));
         Ok((film, reports))
     }
 
@@ -64,25 +65,8 @@ impl<'a> Sessions<'a> {
     ) -> Result<(Film, Vec<Report>)> {
         self.current = None;
         let options = Options { goal: Some(goal), tells_pixels: false, ..Options::default() };
-        let textures = self.textures_of(scene)?;
+        let (textures, _) = self.textures.read(scene, AllowedFloats::Finite)?;
         let (film, report) = render_on(self.gpu, scene, textures, &options, progress)?;
         Ok((film, vec![report]))
-    }
-
-    fn textures_of(&mut self, scene: &Scene) -> Result<Vec<TextureData>> {
-        let mut found = Vec::with_capacity(scene.textures.len());
-        for source in &scene.textures {
-            let known = self.textures.iter().find(|(own, _)| own == source);
-            let data = match known {
-                Some((_, data)) => data.clone(),
-                None => {
-                    let data = texture::load::load(source)?;
-                    self.textures.push((source.clone(), data.clone()));
-                    data
-                }
-            };
-            found.push(data);
-        }
-        Ok(found)
     }
 }

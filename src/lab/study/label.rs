@@ -9,7 +9,9 @@ use crate::texture::sampler_spec::Filter;
 pub fn setting(name: &str, value: &str) -> String {
     match (name, value.parse::<u32>()) {
         ("spp", Ok(count)) => counted(count, "sample"),
-        ("seed" | "camera", _) => format!("{name} {value}"),
+        ("seed" | "camera" | "exposure", _) => format!("{name} {value}"),
+        ("white-balance", _) => format!("white balance: {value} K"),
+        ("gamut", _) => value.to_owned(),
         ("size", _) => value.replace('x', "×"),
         ("set", _) => value.replacen('=', ": ", 1),
         _ if name.contains('.') => format!("{name}: {value}"),

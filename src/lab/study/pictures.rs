@@ -6,7 +6,7 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use crate::core::color::srgb_to_linear;
 use crate::core::error::Result;
 use crate::core::film::Film;
-use crate::output::{self, Format};
+use crate::output::{self, Format, WriteOptions};
 
 /// A part of a film, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,8 +135,12 @@ pub fn averaged(film: &Film, step: u32) -> Film {
 
 /// Returns a data URI: PNG keeps single pixels distinct, JPEG is small.
 pub fn data_uri(film: &Film, format: Format) -> Result<String> {
+    data_uri_with(film, format, &WriteOptions::default())
+}
+
+pub fn data_uri_with(film: &Film, format: Format, options: &WriteOptions<'_>) -> Result<String> {
     let media = if format == Format::Png { "png" } else { "jpeg" };
-    let bytes = output::to_bytes(film, format)?;
+    let bytes = output::to_bytes_with(film, format, options)?;
     Ok(format!("data:image/{media};base64,{}", BASE64_STANDARD.encode(bytes)))
 }
 

@@ -9,7 +9,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::flip::PerceptualFeatures;
-use crate::lab::metrics::{compare, read_picture};
+use crate::lab::metrics::{Halves, read_picture};
 use crate::oracle;
 use crate::output::{self, WriteOptions};
 use crate::pack;
@@ -163,7 +163,7 @@ fn in_halves(
     let both = |samples: u32, progress: &dyn Progress| {
         let a = half(samples, SEED_OFFSETS[0], &SubProgress { whole: progress, from: 0.0, to: 0.5 * end })?;
         let b = half(samples, SEED_OFFSETS[1], &SubProgress { whole: progress, from: 0.5 * end, to: end })?;
-        Ok((a, b))
+        Ok(Halves { a, b })
     };
     // A machine that has become slower gets fewer samples, but at least one per half.
     let mut halves = None;
@@ -173,7 +173,7 @@ fn in_halves(
             samples = if halves.is_none() { (samples.isqrt() / FEWER).max(1).pow(2) } else { samples };
         }
     }
-    let (a, b) = match halves {
+    let halves = match halves {
         Some(halves) => halves,
         None => {
             samples = 1;
@@ -183,10 +183,10 @@ fn in_halves(
     let record = ReferenceRecord {
         samples: 2 * samples,
         seconds: clock.elapsed().as_secs_f64(),
-        rmse: Some(0.5 * compare(&a, &b)?.rmse),
+        rmse: Some(halves.rmse()?),
         ..ReferenceRecord::default()
     };
-    Ok((mean(&a, &b), record, end))
+    Ok((halves.mean(), record, end))
 }
 
 /// Estimates the time from renders of 1, 4, 16, … samples, until they take so long that neither the
@@ -206,12 +206,4 @@ fn seconds_per_sample(half: &Half<'_>, wanted: u32, progress: &dyn Progress) -> 
         }
         samples *= 4;
     }
-}
-
-fn mean(a: &Film, b: &Film) -> Film {
-    let middle = |(p, q): (&[f32; 3], &[f32; 3])| {
-        [0, 1, 2].map(|c: usize| (0.5 * (f64::from(p[c]) + f64::from(q[c]))) as f32)
-    };
-    let pixels = a.pixels.iter().zip(&b.pixels).map(middle).collect();
-    Film { pixels, samples: a.samples + b.samples, ..*a }
 }

@@ -73,11 +73,7 @@ impl<'a> SessionCache<'a> {
 }
 
 fn key(method: &Method) -> Key {
-    let algorithm = match method.algorithm {
-        own @ (Algorithm::Beam | Algorithm::Cone) => own,
-        Algorithm::Samples | Algorithm::Adaptive | Algorithm::Auto => Algorithm::Samples,
-    };
-    (algorithm, method.footprint, method.filter)
+    (method.algorithm.reads_textures_as(), method.footprint, method.filter)
 }
 
 /// Returns, for beams, the fraction of the pixels that were sampled; 1 in a scene that does not

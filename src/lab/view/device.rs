@@ -5,8 +5,6 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
-use rayon::prelude::*;
-
 use super::queue::{Queue, Turn};
 use super::refinement::Refinement;
 use super::shown::Shown;
@@ -17,11 +15,9 @@ use crate::core::progress::Progress;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle::backend::OracleBackend;
 use crate::pack::{self, MipPlacement, PackedScene};
-use crate::render::{MipChoice, On, Session, Tuning, integrator};
+use crate::render::{KeptTextures, MipChoice, On, Session, Tuning, integrator};
 use crate::scene::model::Scene;
-use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::AllowedFloats;
-use crate::texture::load::load_with_notes;
 
 /// Scenes that are kept on the device.
 const MAX_OPEN: usize = 4;
@@ -89,10 +85,12 @@ fn again(select: &DeviceSelect, queue: &Queue, changed: &dyn Fn()) {
 /// Gives refinements their turns until the queue is stopped or the device is lost.
 fn turns(gpu: Option<&Gpu>, queue: &Queue, changed: &dyn Fn()) {
     let mut open: Vec<Open<'_>> = Vec::new();
+    // Settings of one scene mostly read the same textures.
+    let mut kept = KeptTextures::of_last_scene();
     while let Some(refinement) = queue.take() {
         let Some(count) = refinement.next() else { continue };
         let turn = Turn { queue, refinement: &refinement, count };
-        let made = panics::contain(&"rendering", || step(gpu, &mut open, &refinement, &turn));
+        let made = panics::contain(&"rendering", || step(gpu, &mut open, &mut kept, &refinement, &turn));
         match made {
             Ok(()) | Err(Error::Interrupted) => {}
             Err(error) => {
@@ -123,6 +121,7 @@ pub fn told(error: &Error) -> String {
 fn step<'g>(
     gpu: Option<&'g Gpu>,
     open: &mut Vec<Open<'g>>,
+    kept: &mut KeptTextures,
     refinement: &Arc<Refinement>,
     turn: &Turn<'_>,
 ) -> Result<()> {
@@ -131,7 +130,7 @@ fn step<'g>(
         None => {
             // The one that was rendered longest ago makes room.
             open.truncate(MAX_OPEN - 1);
-            let (opened, warnings) = open_scene(gpu, refinement)?;
+            let (opened, warnings) = open_scene(gpu, kept, refinement)?;
             refinement.warn(warnings);
             open.insert(0, opened);
             0
@@ -148,13 +147,13 @@ fn step<'g>(
 }
 
 /// Reads a scene's textures and uploads it; returns warnings about the textures, too.
-fn open_scene<'g>(gpu: Option<&'g Gpu>, refinement: &Refinement) -> Result<(Open<'g>, Vec<String>)> {
+fn open_scene<'g>(
+    gpu: Option<&'g Gpu>,
+    kept: &mut KeptTextures,
+    refinement: &Refinement,
+) -> Result<(Open<'g>, Vec<String>)> {
     let scene = refinement.scene.clone();
-    let read = |texture| load_with_notes(texture, AllowedFloats::Finite);
-    let textures: Vec<Result<_>> = scene.textures.par_iter().map(read).collect();
-    let textures = textures.into_iter().collect::<Result<Vec<_>>>()?;
-    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
-    let warnings = notes.into_iter().flatten().chain(of_textures(&scene, &textures)).collect();
+    let (textures, warnings) = kept.read(&scene, AllowedFloats::Finite)?;
     let mips = match gpu {
         Some(gpu) if pack::reads_levels(&scene) => MipChoice::Auto.mip_chains(gpu.info()),
         _ => MipPlacement::Host,

@@ -60,7 +60,9 @@ fn errors_are_measured_against_many_samples_without_a_prefilter() {
     // A prefilter on the command line is one of the cells, not of the reference.
     let prefilter = ["--footprint", "cone", "--filter", "linear", "--mip", "linear"];
     let blurred = record(folder.path(), &[&SIZE[..], &options, &prefilter].concat());
-    assert_eq!(blurred["references"], plain["references"]);
+    for key in ["samples", "rmse"] {
+        assert_eq!(blurred["references"][0][key], plain["references"][0][key]);
+    }
     assert_ne!(errors(&blurred), found);
 }
 

@@ -11,10 +11,10 @@ use crate::stage::device_name;
 use crate::support::moire;
 
 /// Where the first picture of a sheet with one setting stands: below a margin, the title, a gap and the head.
-const CORNER: [u32; 2] = [24, 24 + 20 + 20 + 20];
+pub(super) const CORNER: [u32; 2] = [24, 24 + 20 + 20 + 20];
 const WHITE: [f32; 3] = [1.0; 3];
 
-fn rendered(folder: &Path, options: &[&str]) -> Film {
+pub(super) fn rendered(folder: &Path, options: &[&str]) -> Film {
     let mut command = moire();
     command.current_dir(folder).arg("render").arg(scene()).args([
         "--device",
@@ -29,7 +29,7 @@ fn rendered(folder: &Path, options: &[&str]) -> Film {
     read_picture(&folder.join("own.png")).unwrap()
 }
 
-fn at(film: &Film, x: u32, y: u32) -> [f32; 3] {
+pub(super) fn at(film: &Film, x: u32, y: u32) -> [f32; 3] {
     film.pixels[(y * film.width + x) as usize]
 }
 
