@@ -13,7 +13,7 @@ use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precis
 use crate::scene::{MAX_RADIUS, Reading, Setting};
 use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
-use super::quantity::{positive, seconds, whole};
+use super::quantity::{positive, samples, seconds, seed};
 use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
 
 #[derive(Args, Clone, Debug)]
@@ -28,7 +28,7 @@ pub struct Overrides {
     #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = OUTPUT)]
     size: Option<[u32; 2]>,
     /// Samples per pixel
-    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true, help_heading = SAMPLING)]
+    #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true, help_heading = SAMPLING)]
     spp: Option<u32>,
     /// Algorithm
     #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help_heading = SAMPLING)]
@@ -43,7 +43,7 @@ pub struct Overrides {
     #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help_heading = SAMPLING)]
     pattern: Option<Pattern>,
     /// Seed of the sampling pattern
-    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true, help_heading = SAMPLING)]
+    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true, help_heading = SAMPLING)]
     seed: Option<u32>,
     /// Look-up method of every sampler
     #[arg(long, value_name = "M", value_parser = named_parser(Method::NAMES, Method::from_name), help_heading = TEXTURES)]

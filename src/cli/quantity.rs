@@ -1,6 +1,8 @@
 //! Numbers on the command line. Input: a word such as `50ms` or `1e-3`. Output: the number, times in seconds; or what is
 //! allowed there.
 
+use crate::scene::MAX_SPP;
+
 /// The units of time, and their seconds.
 const UNITS: [(&str, f64); 6] =
     [("us", 1e-6), ("µs", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)];
@@ -13,9 +15,14 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Parses a number of things; whether there may be so many is for the scene to say.
-pub(super) fn whole(text: &str) -> Result<u32, String> {
+/// Parses a seed.
+pub(super) fn seed(text: &str) -> Result<u32, String> {
     text.trim().parse().map_err(|_| format!("expected a whole number from 0 to {}", u32::MAX))
+}
+
+/// Parses a number of samples; which ones a pattern takes is for the scene to say.
+pub(super) fn samples(text: &str) -> Result<u32, String> {
+    text.trim().parse().map_err(|_| format!("expected a whole number from 1 to {MAX_SPP}"))
 }
 
 /// Parses a time; without a unit it is in seconds.

@@ -11,7 +11,7 @@ use super::progress::Bar;
 use super::render::check_inputs_kept;
 use super::render_args::parse_part;
 use super::vary::{self, Combination, Vary};
-use super::vary_mistakes::of_keys;
+use super::vary_mistakes::of_scene;
 use super::{DEVICE, MEASURING, OUTPUT};
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
@@ -175,7 +175,7 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
     let mut scenes = Vec::with_capacity(combinations.len());
     for combination in &combinations {
         let read = combination.overrides.load(&args.scene, false);
-        let mut scene = read.map_err(|error| of_keys(&combination.settings, error))?;
+        let mut scene = read.map_err(|error| of_scene(&combination.settings, error))?;
         let file = scene.clone();
         let applied = combination.overrides.apply(&mut scene).map(|_| scene);
         scenes.push((file, applied));

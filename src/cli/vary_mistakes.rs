@@ -42,11 +42,15 @@ pub(super) fn wrong(name: &str, value: &str, error: &clap::Error) -> Error {
     if value.contains("..") { Error::with_help(what, RANGES) } else { Error::new(what) }
 }
 
-/// Returns an error of a scene with keys that vary as one of `--vary`, where it is one of such a key.
-pub(super) fn of_keys(settings: &BTreeMap<String, String>, error: Error) -> Error {
+/// Returns an error of a scene as one of `--vary`, where it is one of a key or an option that varies.
+pub(super) fn of_scene(settings: &BTreeMap<String, String>, error: Error) -> Error {
     let renamed = |text: String| {
         settings.iter().fold(text, |text, (name, value)| {
-            text.replace(&format!("--set {name}={value}"), &format!("--vary {name}: {value}"))
+            let told = format!("--vary {name}: {value}");
+            match text.strip_prefix(&format!("--{name}: ")) {
+                Some(rest) => format!("{told}: {rest}"),
+                None => text.replace(&format!("--set {name}={value}"), &told),
+            }
         })
     };
     match error {

@@ -25,20 +25,20 @@ struct Layout {
     cell: u32,
     head: u32,
     factor: u32,
+    /// Between the margins.
+    inner: u32,
 }
 
 pub fn compose(content: &Content) -> Film {
     let entries = || content.blocks.iter().flat_map(|block| &block.rows).flat_map(|row| &row.entries);
     let heads =
         || content.blocks.iter().flat_map(|block| &block.rows).filter_map(|row| row.heading.as_deref());
-    let layout = Layout {
-        cell: entries().map(|entry| size(entry, content.factor)[0]).fold(MIN_CELL, u32::max),
-        head: heads().map(|head| width(head).min(MAX_HEAD) + GAP).max().unwrap_or(0),
-        factor: content.factor,
-    };
+    let cell = entries().map(|entry| size(entry, content.factor)[0]).fold(MIN_CELL, u32::max);
+    let head = heads().map(|head| width(head).min(MAX_HEAD) + GAP).max().unwrap_or(0);
     let columns = content.blocks.iter().flat_map(|block| &block.rows).map(|row| row.entries.len()).max();
     let columns = columns.unwrap_or(1) as u32;
-    let inner = (layout.head + columns * layout.cell + (columns - 1) * GAP).max(MIN_WIDTH);
+    let inner = (head + columns * cell + (columns - 1) * GAP).max(MIN_WIDTH);
+    let layout = Layout { cell, head, factor: content.factor, inner };
     let title = lines(&content.title, inner);
     let notes: Vec<String> = content.notes.iter().flat_map(|note| lines(note, inner)).collect();
     let tables: u32 = content.blocks.iter().map(|block| layout.height(block)).sum();
@@ -87,7 +87,7 @@ impl Layout {
         entry.heading.iter().flat_map(|text| lines(text, self.cell)).collect()
     }
 
-    /// Returns the heights of a row's heads, pictures and captions.
+    /// Returns the heights of a row: of its heads, of its pictures, and of pictures with their captions.
     fn row(&self, row: &Row) -> [u32; 3] {
         let most = |height: &dyn Fn(&Entry) -> u32| row.entries.iter().map(height).max().unwrap_or(0);
         let why = |entry: &Entry| match &entry.body {
@@ -95,7 +95,13 @@ impl Layout {
             _ => size(entry, self.factor)[1],
         };
         let heads = most(&|entry| self.heading(entry).len() as u32 * LINE);
-        [heads, most(&why), most(&|entry| self.captions(entry).len() as u32 * LINE)]
+        let captions = |entry: &Entry| self.captions(entry).len() as u32 * LINE;
+        let head = row.heading.iter().map(|head| lines(head, self.head - GAP).len() as u32 * LINE).sum();
+        [heads, most(&why), most(&|entry| why(entry) + NEAR + captions(entry)).max(head)]
+    }
+
+    fn title(&self, block: &Block) -> Vec<String> {
+        block.heading.iter().flat_map(|text| lines(text, self.inner)).collect()
     }
 
     fn columns(&self, block: &Block) -> u32 {
@@ -103,34 +109,39 @@ impl Layout {
     }
 
     fn height(&self, block: &Block) -> u32 {
-        let heading = block.heading.as_ref().map_or(0, |_| LINE + NEAR);
-        let rows: u32 = block.rows.iter().map(|row| self.row(row).iter().sum::<u32>() + NEAR + GAP).sum();
-        heading + self.columns(block) + rows
+        let heading = self.title(block).len() as u32 * LINE;
+        let near = if heading > 0 { NEAR } else { 0 };
+        let row = |row: &Row| {
+            let [heads, _, whole] = self.row(row);
+            heads + whole + GAP
+        };
+        heading + near + self.columns(block) + block.rows.iter().map(row).sum::<u32>()
     }
 
     /// Draws a block from `at` on, and returns where the next one begins.
     fn draw(&self, canvas: &mut Canvas, block: &Block, mut at: u32) -> u32 {
-        if let Some(heading) = &block.heading {
-            canvas.text([MARGIN, at], heading, Weight::Bold, INK);
-            at += LINE + NEAR;
+        let title = self.title(block);
+        if !title.is_empty() {
+            self.text(canvas, [MARGIN, at], &title, Weight::Bold, INK);
+            at += title.len() as u32 * LINE + NEAR;
         }
         for (index, head) in block.columns.iter().enumerate() {
             self.text(canvas, [self.column(index), at], &lines(head, self.cell), Weight::Bold, INK);
         }
         at += self.columns(block);
         for row in &block.rows {
-            let [heads, pictures, captions] = self.row(row);
+            let [heads, pictures, whole] = self.row(row);
             if let Some(heading) = &row.heading {
                 self.text(canvas, [MARGIN, at + heads], &lines(heading, self.head - GAP), Weight::Bold, INK);
             }
             for (index, entry) in row.entries.iter().enumerate() {
                 let x = self.column(index);
                 self.text(canvas, [x, at], &self.heading(entry), Weight::Bold, INK);
-                let below = [x, at + heads + pictures + NEAR];
+                let below = [x, at + heads + size(entry, self.factor)[1] + NEAR];
                 self.text(canvas, below, &self.captions(entry), Weight::Regular, SOFT);
                 self.picture(canvas, [x, at + heads], &entry.body, pictures);
             }
-            at += heads + pictures + captions + NEAR + GAP;
+            at += heads + whole + GAP;
         }
         at
     }

@@ -17,7 +17,7 @@ pub const MAX_CELLS: usize = 64;
 const MAX_MEGAPIXELS: u64 = 40;
 /// The width in pixels up to which a part is enlarged, unless a factor is given.
 const ENLARGED_WIDTH: u32 = 288;
-const MAX_FACTOR: u32 = 16;
+const MAX_FACTOR: u32 = 64;
 
 /// A setting that varies.
 #[derive(Clone, Debug)]

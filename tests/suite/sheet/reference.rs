@@ -20,10 +20,10 @@ fn errors_against_a_noisy_reference_are_those_against_a_quiet_one() {
         [numbers(&noisy, "rmse"), numbers(&quiet, "rmse"), numbers(&noisy, "rmse_deviation")];
     for ((found, truth), deviation) in found.iter().zip(&truth).zip(&deviations) {
         assert!((found - truth).abs() < 4.0 * deviation, "{found} ± {deviation}, in truth {truth}");
-        // The noise itself is no small part of what the pictures differ by.
-        let naive = truth.hypot(own);
-        assert!((naive - truth) > 0.02 * truth, "a reference off by {own} tests nothing at {truth}");
     }
+    // The noise itself is no small part of what the best picture and the reference differ by.
+    let best = truth.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(best.hypot(own) > 1.05 * best, "a reference off by {own} tests nothing at {best}");
     let close = numbers(&quiet, "rmse_deviation").iter().zip(&truth).all(|(d, rmse)| *d < 0.01 * rmse);
     assert!(close, "{quiet}");
 }
