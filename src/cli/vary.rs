@@ -181,17 +181,4 @@ mod tests {
         assert!(wrong("spp=1,4,1").contains("spp: 1 is named twice"));
         assert!(wrong("=1,4").contains("a name is missing"));
     }
-
-    #[test]
-    fn combinations_that_differ_in_their_display_have_the_film_of_the_first() {
-        let vary = |text: &str| parse(text).unwrap();
-        let varied = [vary("exposure=-1,0,1"), vary("spp=1,4"), vary("tone-map=none,agx")];
-        let (_, all) = combine(&varied, (&no_overrides(), &DisplayArgs::default())).unwrap();
-        let films: Vec<usize> = all.iter().map(|combination| combination.film_of).collect();
-        assert_eq!(films, [0, 0, 0, 3, 3, 3, 0, 0, 0, 3, 3, 3]);
-    }
-
-    fn no_overrides() -> Overrides {
-        CellArgs::try_parse_from([""; 0]).unwrap().overrides
-    }
 }

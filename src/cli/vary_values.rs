@@ -98,35 +98,4 @@ mod tests {
         assert_eq!(split("\"a,b\",'c,\"d'"), ["\"a,b\"", "'c,\"d'"]);
         assert_eq!(split("a,"), ["a", ""]);
     }
-
-    #[test]
-    fn ranges_are_all_of_their_values() {
-        let of = |list: &str| values(list).unwrap().join(" ");
-        assert_eq!(of("1..4"), "1 2 3 4");
-        assert_eq!(of("1..=4,9"), "1 2 3 4 9");
-        assert_eq!(of("1..64x4"), "1 4 16 64");
-        assert_eq!(of("1..70*4"), "1 4 16 64");
-        assert_eq!(of("-1..1+0.5"), "-1 -0.5 0 0.5 1");
-        assert_eq!(of("-3..-1"), "-3 -2 -1");
-        assert_eq!(of("0..0.3+0.1"), "0 0.1 0.2 0.3");
-        assert_eq!(of("0.001..0.1x10"), "0.001 0.01 0.1");
-        // Words with dots that are no numbers stay as they are.
-        assert_eq!(of("\"../a.png\",a..b,5ms..20ms"), "\"../a.png\" a..b 5ms..20ms");
-    }
-
-    #[test]
-    fn ranges_without_an_end_say_how_they_are_written() {
-        let cases = [
-            ("4..1", "ends below"),
-            ("1..9x1", "factor above 1"),
-            ("0..9x2", "start above 0"),
-            ("1..9+0", "step above 0"),
-        ];
-        for (list, what) in
-            cases.into_iter().chain([("1..9x", "no number"), ("1..65", "more values than the 64")])
-        {
-            let told = values(list).unwrap_err();
-            assert!(told.contains(what) && told.contains(list) && told.contains(RANGES), "{list}: {told}");
-        }
-    }
 }

@@ -42,6 +42,7 @@ mod flip;
 mod footprints;
 mod gallery;
 mod golden;
+mod halves;
 #[cfg(unix)]
 mod interrupt;
 mod layering;

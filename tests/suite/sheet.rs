@@ -6,6 +6,7 @@ mod cells;
 mod display;
 mod mistakes;
 mod picture;
+mod ranges;
 mod reference;
 
 use std::path::{Path, PathBuf};

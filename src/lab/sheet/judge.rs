@@ -8,6 +8,7 @@ use crate::core::film::Film;
 use crate::lab::metrics::Halves;
 use crate::lab::metrics::flip::PerceptualFeatures;
 use crate::lab::study::format::error;
+use crate::lab::study::label;
 use crate::scene::MAX_SPP;
 
 /// The error of a reference is to be at most this share of that of the best picture: FLIP and differences contain it.
@@ -16,6 +17,8 @@ const QUIET: f64 = 0.25;
 const INVISIBLE: f64 = 1.0 / 255.0;
 /// The share from which on it is told that they do.
 const LOUD: f64 = 0.5;
+/// The most times as many samples that are advised.
+const WORTHWHILE: f64 = 64.0;
 /// The most pairs that are named.
 const MAX_PAIRS: usize = 3;
 
@@ -58,8 +61,13 @@ pub(super) fn judge(record: &mut CellRecord, film: &Film, reference: &Reference)
     Ok(())
 }
 
-/// Returns what is to be said of the reference of pictures that were judged by it.
-pub(super) fn notes(record: &Record, drawn: &[Drawn], reference: &Reference) -> Result<Vec<String>> {
+/// Returns what is to be said of the reference of pictures that were judged by it. `is_one`: all cells have the same.
+pub(super) fn notes(
+    record: &Record,
+    drawn: &[Drawn],
+    reference: &Reference,
+    is_one: bool,
+) -> Result<Vec<String>> {
     let Some(halves) = &reference.halves else { return Ok(Vec::new()) };
     let mut notes: Vec<String> =
         unranked(record, drawn, halves, reference.record.samples)?.into_iter().collect();
@@ -67,9 +75,12 @@ pub(super) fn notes(record: &Record, drawn: &[Drawn], reference: &Reference) -> 
     let least = drawn.iter().filter_map(of).fold(f64::INFINITY, f64::min);
     let own = reference.record.rmse.unwrap_or(0.0);
     if own > LOUD * least {
+        let first = drawn.first().filter(|_| !is_one);
+        let whose =
+            first.map_or_else(String::new, |one| format!(" of \"{}\"", record.cells[one.index].label));
         let wanted = quieter(reference.record.samples, own / (QUIET * least.max(f64::MIN_POSITIVE)));
         notes.push(format!(
-            "the reference itself is off by RMSE {}, which FLIP and difference pictures contain and RMSE does not; \
+            "the reference{whose} itself is off by RMSE {}, which FLIP and difference pictures contain and RMSE does not; \
              quieter: --reference-spp {wanted}",
             error(own)
         ));
@@ -93,8 +104,7 @@ fn unranked(record: &Record, drawn: &[Drawn], halves: &Halves, samples: u32) -> 
         if let Some(more) = halves.mse_between(&x.film, &y.film)?
             && !more.is_clear()
         {
-            let label = |one: &Drawn| record.cells[one.index].label.clone();
-            pairs.push(format!("\"{}\" and \"{}\"", label(x), label(y)));
+            pairs.push(named(&record.cells[x.index], &record.cells[y.index]));
             factor = factor.max(2.0 * more.deviation / more.value.abs().max(f64::MIN_POSITIVE));
         }
     }
@@ -106,11 +116,26 @@ fn unranked(record: &Record, drawn: &[Drawn], halves: &Halves, samples: u32) -> 
         more => format!(" and {more} more pairs"),
     };
     pairs.truncate(MAX_PAIRS);
-    Ok(Some(format!(
-        "the reference's noise does not tell which is better of {}{more}; it may with --reference-spp {}",
-        pairs.join(", "),
-        quieter(samples, factor)
-    )))
+    let way = match factor * factor <= WORTHWHILE {
+        true => format!("it may with --reference-spp {}", quieter(samples, factor)),
+        false => "they err by nearly the same".into(),
+    };
+    let pairs = pairs.join("; ");
+    Ok(Some(format!("the reference's noise does not tell which is better of {pairs}{more}: {way}")))
+}
+
+/// Returns the names of two cells: the settings in which they differ, and then those that they share.
+fn named(x: &CellRecord, y: &CellRecord) -> String {
+    let words = |cell: &CellRecord, differ: bool| {
+        let own = cell
+            .settings
+            .iter()
+            .filter(|(name, _)| (x.settings.get(*name) != y.settings.get(*name)) == differ);
+        own.map(|(name, value)| label::setting(name, value)).collect::<Vec<_>>().join(", ")
+    };
+    let shared = words(x, false);
+    let shared = if shared.is_empty() { shared } else { format!(" ({shared})") };
+    format!("\"{}\" and \"{}\"{shared}", words(x, true), words(y, true))
 }
 
 /// Returns the samples of a reference whose error is so many times less, a power of two.

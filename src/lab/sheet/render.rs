@@ -169,7 +169,7 @@ impl Run<'_> {
                 record.reference = Some(self.sheet.record.references.len() - 1);
                 judge(record, film, reference)?;
             }
-            let notes = notes(&self.sheet.record, waiting, reference)?;
+            let notes = notes(&self.sheet.record, waiting, reference, self.views == 1)?;
             self.sheet.record.warnings.extend(notes);
         }
         for drawn in waiting.drain(..) {
