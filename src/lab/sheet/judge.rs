@@ -69,15 +69,14 @@ pub(super) fn notes(
     is_one: bool,
 ) -> Result<Vec<String>> {
     let Some(halves) = &reference.halves else { return Ok(Vec::new()) };
-    let mut notes: Vec<String> =
-        unranked(record, drawn, halves, reference.record.samples)?.into_iter().collect();
+    let first = drawn.first().filter(|_| !is_one);
+    let view = first.map(|one| words(&record.cells[one.index], |name| is_shared(record, drawn, name)));
+    let whose = view.map_or_else(String::new, |view| format!(" of \"{view}\""));
+    let mut notes: Vec<String> = unranked(record, drawn, halves, &whose)?.into_iter().collect();
     let of = |drawn: &Drawn| record.cells[drawn.index].rmse.or(record.cells[drawn.index].rmse_below);
     let least = drawn.iter().filter_map(of).fold(f64::INFINITY, f64::min);
     let own = reference.record.rmse.unwrap_or(0.0);
     if own > LOUD * least {
-        let first = drawn.first().filter(|_| !is_one);
-        let whose =
-            first.map_or_else(String::new, |one| format!(" of \"{}\"", record.cells[one.index].label));
         let wanted = quieter(reference.record.samples, own / (QUIET * least.max(f64::MIN_POSITIVE)));
         notes.push(format!(
             "the reference{whose} itself is off by RMSE {}, which FLIP and difference pictures contain and RMSE does not; \
@@ -89,7 +88,7 @@ pub(super) fn notes(
 }
 
 /// Returns the neighbours in rank of which the reference does not tell which one is better.
-fn unranked(record: &Record, drawn: &[Drawn], halves: &Halves, samples: u32) -> Result<Option<String>> {
+fn unranked(record: &Record, drawn: &[Drawn], halves: &Halves, whose: &str) -> Result<Option<String>> {
     let mut ranked = Vec::with_capacity(drawn.len());
     for one in drawn {
         if let Some(mse) = halves.mse_of(&one.film)? {
@@ -104,7 +103,8 @@ fn unranked(record: &Record, drawn: &[Drawn], halves: &Halves, samples: u32) -> 
         if let Some(more) = halves.mse_between(&x.film, &y.film)?
             && !more.is_clear()
         {
-            pairs.push(named(&record.cells[x.index], &record.cells[y.index]));
+            let cells = [x, y].map(|one| &record.cells[one.index]);
+            pairs.push(named(cells, |name| is_shared(record, drawn, name)));
             factor = factor.max(2.0 * more.deviation / more.value.abs().max(f64::MIN_POSITIVE));
         }
     }
@@ -117,25 +117,34 @@ fn unranked(record: &Record, drawn: &[Drawn], halves: &Halves, samples: u32) -> 
     };
     pairs.truncate(MAX_PAIRS);
     let way = match factor * factor <= WORTHWHILE {
-        true => format!("it may with --reference-spp {}", quieter(samples, factor)),
+        true => format!("it may with --reference-spp {}", quieter(2 * halves.a.samples, factor)),
         false => "they err by nearly the same".into(),
     };
     let pairs = pairs.join("; ");
-    Ok(Some(format!("the reference's noise does not tell which is better of {pairs}{more}: {way}")))
+    Ok(Some(format!(
+        "the noise of the reference{whose} does not tell which is better of {pairs}{more}: {way}"
+    )))
 }
 
-/// Returns the names of two cells: the settings in which they differ, and then those that they share.
-fn named(x: &CellRecord, y: &CellRecord) -> String {
-    let words = |cell: &CellRecord, differ: bool| {
-        let own = cell
-            .settings
-            .iter()
-            .filter(|(name, _)| (x.settings.get(*name) != y.settings.get(*name)) == differ);
-        own.map(|(name, value)| label::setting(name, value)).collect::<Vec<_>>().join(", ")
-    };
-    let shared = words(x, false);
-    let shared = if shared.is_empty() { shared } else { format!(" ({shared})") };
-    format!("\"{}\" and \"{}\"{shared}", words(x, true), words(y, true))
+/// Returns the words for those settings of a cell that a test chooses by their names.
+fn words(cell: &CellRecord, is_said: impl Fn(&str) -> bool) -> String {
+    let own = cell.settings.iter().filter(|(name, _)| is_said(name));
+    own.map(|(name, value)| label::setting(name, value)).collect::<Vec<_>>().join(", ")
+}
+
+/// Returns true if all cells of a view have the same value of a setting.
+fn is_shared(record: &Record, drawn: &[Drawn], name: &str) -> bool {
+    let mut values = drawn.iter().map(|one| record.cells[one.index].settings.get(name));
+    let first = values.next();
+    values.all(|value| Some(value) == first)
+}
+
+/// Returns the names of two cells: the settings in which they differ, and then those that they share, but not with all.
+fn named([x, y]: [&CellRecord; 2], is_shared: impl Fn(&str) -> bool) -> String {
+    let differ = |name: &str| x.settings.get(name) != y.settings.get(name);
+    let both = words(x, |name| !differ(name) && !is_shared(name));
+    let both = if both.is_empty() { both } else { format!(" ({both})") };
+    format!("\"{}\" and \"{}\"{both}", words(x, differ), words(y, differ))
 }
 
 /// Returns the samples of a reference whose error is so many times less, a power of two.
