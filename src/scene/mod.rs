@@ -33,7 +33,7 @@ mod whole;
 pub use builder::SceneBuilder;
 pub use built_in::BuiltIn;
 pub use formats::{
-    Reading, STANDARD_INPUT, SceneFile, is_model, is_standard_input, load, load_as, load_recorded,
+    ModelView, Reading, STANDARD_INPUT, SceneFile, is_model, is_standard_input, load, load_as, load_recorded,
     load_seen_by, model_endings, model_view, parse, parse_as,
 };
 pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};

@@ -76,10 +76,12 @@ impl Rows<'_> {
     }
 
     pub fn stored(&self, y: usize) -> Vec<f64> {
-        let (t, count) = (self.texture, self.texture.file_channels);
-        let mut row = Vec::with_capacity(t.width as usize * count);
-        for x in 0..t.width {
-            row.extend((0..count).map(|channel| t.value(x, y as u32, channel)));
+        let (count, channels) = (self.texture.file_channels, self.texture.format.channels());
+        let mut row = self.texture.row_values(y);
+        if count < channels {
+            let texels = row.len() / channels;
+            (0..texels * count).for_each(|i| row[i] = row[i / count * channels + i % count]);
+            row.truncate(texels * count);
         }
         row
     }

@@ -61,6 +61,11 @@ pub(super) fn choose(headers: &[Header], wanted: Option<&str>, path: &Path) -> R
     }
 }
 
+/// Returns the names of the layers that have colours.
+pub(super) fn colored(headers: &[Header]) -> Vec<String> {
+    groups(headers).into_iter().filter(|group| group.colors().is_some()).map(|group| group.name).collect()
+}
+
 fn groups(headers: &[Header]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (part, header) in headers.iter().enumerate() {

@@ -57,6 +57,9 @@ pub(crate) fn hint(path: &Path) -> Option<String> {
     if let Some(odd) = odd_path(path) {
         return Some(odd);
     }
+    if let Ok(to) = fs::read_link(path) {
+        return Some(format!("it is a link to {}, which is not there", to.display()));
+    }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else {
         return Some(format!("the folder {} does not exist or cannot be read", folder.display()));

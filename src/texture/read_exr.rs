@@ -15,6 +15,7 @@ use super::data::{Component, TexelFormat};
 use super::exr_color;
 use super::exr_layers::{self, Colors, Layer};
 use super::exr_subsampled::{self, Patched};
+use super::open_file::open as open_file;
 use super::read_file::{Texels, check_memory, check_size, damaged, unreadable};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
@@ -57,6 +58,13 @@ pub(super) fn read(
         }
         _ => read_chosen(reader, choice, window, path),
     }
+}
+
+/// Returns the names of the layers with colours, as scenes name them; none of a file that is not OpenEXR.
+pub fn color_layers(path: &Path) -> Vec<String> {
+    let Ok(source) = open_file(path) else { return Vec::new() };
+    let mut source = std::io::BufReader::new(source);
+    open(&mut source).map_or_else(|_| Vec::new(), |reader| exr_layers::colored(reader.headers()))
 }
 
 fn open(source: &mut dyn Source) -> exr::error::Result<Reader<&mut dyn Source>> {

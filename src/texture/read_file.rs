@@ -180,7 +180,7 @@ fn read_by_content(
     Ok(Picture { facts, ..Picture::noted(orientation.apply(texels), notes) })
 }
 
-fn read_whole(mut source: impl Read, length: usize, path: &Path) -> Result<Vec<u8>> {
+pub(super) fn read_whole(mut source: impl Read, length: usize, path: &Path) -> Result<Vec<u8>> {
     let failed = |e: std::io::Error| unreadable(path, &e);
     let mut file = Vec::new();
     file.try_reserve_exact(length).map_err(|_| out_of_memory(path))?;

@@ -32,6 +32,23 @@ impl TextureData {
         }
     }
 
+    /// Returns all values of a row, as [`value`](Self::value) does each.
+    ///
+    /// Panics if there is no such row.
+    pub fn row_values(&self, y: usize) -> Vec<f64> {
+        let length = self.width as usize * self.format.bytes_per_texel();
+        let row = &self.texels[y * length..][..length];
+        match self.format.component() {
+            Component::Unorm8 => row.iter().map(|byte| f64::from(*byte) / 255.0).collect(),
+            Component::Unorm16 => {
+                row.as_chunks().0.iter().map(|two| f64::from(u16::from_ne_bytes(*two)) / 65_535.0).collect()
+            }
+            Component::Float32 => {
+                row.as_chunks().0.iter().map(|four| f64::from(f32::from_ne_bytes(*four))).collect()
+            }
+        }
+    }
+
     /// Like [`value`](Self::value), with sRGB decoded. Alpha is never sRGB-encoded.
     pub fn linear_value(&self, x: u32, y: u32, channel: usize) -> f64 {
         let stored = self.value(x, y, channel);

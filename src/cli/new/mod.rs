@@ -1,7 +1,11 @@
 //! `moire new`: writes a short scene that renders at once. Input: what to show, and files of pictures or a model, at which it
 //! looks; or a scene of the program. Output: a commented scene file, with the files of the program that it names beside it.
 
+mod bands;
 mod copies;
+mod green;
+mod inputs;
+mod material;
 mod names;
 mod paths;
 mod photo;
@@ -17,6 +21,7 @@ use crate::lab::study::quote;
 use crate::output;
 use crate::scene::{BuiltIn, is_model, is_standard_input, parse};
 use copies::Copies;
+use inputs::Subject;
 use photo::Photo;
 use surface::Surface;
 
@@ -44,8 +49,8 @@ pub struct NewArgs {
     what: Option<PathBuf>,
     /// File of the model (glTF, OBJ, PLY, STL)
     model: Option<PathBuf>,
-    /// Picture for the surface, or the model. May be given several times: colors, normal map, roughness, sky
-    #[arg(short, long = "texture", value_name = "FILE")]
+    /// Pictures for the surface, or a folder of them, or the model: colors, normal map, roughness, sky
+    #[arg(short, long = "texture", value_name = "FILE", num_args = 1..)]
     texture: Vec<PathBuf>,
     /// Scene file to write [default: what it shows with .toml, in the current folder]
     #[arg(short, long, value_name = "OUT")]
@@ -71,19 +76,15 @@ pub fn run(args: &NewArgs) -> Result<ExitCode> {
     {
         return copy(args, scene);
     }
-    let (kind, model, pictures) = subject(args)?;
+    let Subject { kind, model, pictures, none } = inputs::subject(args)?;
     let out = args.output.clone().unwrap_or_else(|| format!("{}.toml", kind.name()).into());
     let folder = out.parent().unwrap_or(Path::new(""));
     let mut copies = Copies::default();
     let is_empty = pictures.is_empty() && model.is_none();
-    let photos = match is_empty {
-        true => {
-            copies.samples(kind).into_iter().map(|path| Photo::look(&path)).collect::<Result<Vec<_>>>()?
-        }
-        false => pictures.iter().map(|path| Photo::look(path)).collect::<Result<Vec<_>>>()?,
-    };
+    let photos = Photo::look_all(&if is_empty { copies.samples(kind) } else { pictures })?;
     let model = model.or_else(|| (kind == Kind::Model).then(|| copies.model()));
-    let surface = Surface::new(photos, kind);
+    let mut surface = Surface::new(photos, kind);
+    surface.left_out.extend(none);
     let writer = text::Writer { kind, surface: &surface, model: model.as_deref(), folder };
     let text = writer.scene()?;
     // It is read again, so that it can be rendered.
@@ -94,6 +95,7 @@ pub fn run(args: &NewArgs) -> Result<ExitCode> {
     write(args, &out, &text, &copies)?;
     if !args.quiet {
         surface.left_out.iter().for_each(|why| super::notify(format_args!("left out: {why}")));
+        surface.notes.iter().for_each(|what| super::notify(format_args!("note: {what}")));
         told(&out, &copies);
     }
     Ok(ExitCode::SUCCESS)
@@ -122,42 +124,6 @@ fn copy(args: &NewArgs, scene: BuiltIn) -> Result<ExitCode> {
         told(&out, &copies);
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Returns what is shown, the model, and the pictures.
-fn subject(args: &NewArgs) -> Result<(Kind, Option<PathBuf>, Vec<PathBuf>)> {
-    let (models, pictures): (Vec<_>, Vec<_>) =
-        args.model.iter().chain(&args.texture).cloned().partition(|path| is_model(path));
-    let mut models = models.into_iter();
-    let (named, first) = match &args.what {
-        None => (None, None),
-        Some(path) if is_model(path) => (Some(Kind::Model), Some(path.clone())),
-        Some(word) => {
-            let kind = word.to_str().and_then(Kind::from_name).ok_or_else(|| {
-                let what = format!("{}: expected one of {}", word.display(), Kind::NAMES.join(", "));
-                Error::with_help(
-                    what,
-                    "a scene of the program begins with @, such as @lecture; name a picture with -t",
-                )
-            })?;
-            (Some(kind), None)
-        }
-    };
-    let model = first.or_else(|| models.next());
-    if let Some(second) = models.next() {
-        let what = format!("{}: a second model; a new scene shows one", second.display());
-        return Err(Error::with_help(what, "add further [[mesh]] sections to the scene"));
-    }
-    if let Some(file) = args.model.as_ref().filter(|file| !is_model(file)) {
-        let what = format!("{}: expected the file of a model (glTF, OBJ, PLY, STL)", file.display());
-        return Err(Error::with_help(what, "name a picture with -t"));
-    }
-    let kind = named.unwrap_or(if model.is_some() { Kind::Model } else { Kind::Floor });
-    if let (Some(model), true) = (&model, kind != Kind::Model) {
-        let what = format!("{}: this is a model, and a {kind} has none", model.display());
-        return Err(Error::with_help(what, "`moire new model` shows it"));
-    }
-    Ok((kind, model, pictures))
 }
 
 /// Refuses the name of a picture or of a model for a scene, and standard output, beside which no texture can be written.

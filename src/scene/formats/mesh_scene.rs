@@ -72,15 +72,26 @@ fn view(file: &MeshFile, chosen: Option<&str>) -> Result<View, String> {
     Ok(view)
 }
 
+/// What a model is seen by, as the text of a scene.
+pub struct ModelView {
+    /// Camera, picture and sampling.
+    pub view: String,
+    /// What is behind it.
+    pub background: String,
+    /// Its lights, or those that models without any have.
+    pub lights: String,
+}
+
 /// Returns camera, picture, sampling, background and lights of a model as the text of a scene, in round numbers.
-pub fn model_view(path: &Path) -> Result<String> {
+pub fn model_view(path: &Path) -> Result<ModelView> {
     let mut builder = SceneBuilder::new(camera_of([DVec3::ZERO; 2]), SIZE, SIZE);
     let file = MeshFile::open(path, &mut builder)?;
     let mut view = view(&file, None).map_err(Error::new)?;
     for vector in [&mut view.camera.eye, &mut view.camera.look_at] {
         *vector = vector.map(rounded);
     }
-    Ok(view.text())
+    let [view, background, lights] = view.parts();
+    Ok(ModelView { view, background, lights })
 }
 
 /// Returns a number to five digits.

@@ -23,7 +23,7 @@ use crate::core::panics;
 use crate::mesh::Fault;
 use crate::texture::open_file::hint;
 pub use mesh_file::is_mesh as is_model;
-pub use mesh_scene::model_view;
+pub use mesh_scene::{ModelView, model_view};
 pub use scene_file::SceneFile;
 pub use toml::{parse, parse_as};
 

@@ -76,6 +76,20 @@ impl View {
 
     /// Returns the view as text of a scene file.
     pub fn text(&self) -> String {
+        self.parts().concat()
+    }
+
+    /// Returns the text in parts: camera, picture and sampling; background; lights.
+    pub fn parts(&self) -> [String; 3] {
+        let background = format!("\n[background]\ncolor = {}\n", vector(self.background));
+        let light = |light: &Light| {
+            let lines = entries(light).into_iter().map(|(key, value)| format!("{key} = {value}\n"));
+            format!("\n[[light]]\n{}", lines.collect::<String>())
+        };
+        [self.camera_text(), background, self.lights.iter().map(light).collect()]
+    }
+
+    fn camera_text(&self) -> String {
         let mut text = String::new();
         let mut line = |words: std::fmt::Arguments<'_>| {
             // Writing into a string does not fail.
@@ -97,11 +111,6 @@ impl View {
             "\n[sampling]\npattern = \"{}\"\nspp = {}\nfootprint = \"{}\"",
             sampling.pattern, sampling.spp, sampling.footprint
         ));
-        line(format_args!("\n[background]\ncolor = {}", vector(self.background)));
-        for light in &self.lights {
-            line(format_args!("\n[[light]]"));
-            entries(light).iter().for_each(|(key, value)| line(format_args!("{key} = {value}")));
-        }
         text
     }
 }
