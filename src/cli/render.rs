@@ -1,6 +1,7 @@
 //! `moire render`: renders a scene file with options into pictures and, with `--json`, one JSON
 //! object of statistics. All invalid input is refused before the device starts.
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -43,7 +44,8 @@ fn start(job: Job<'_>) -> Result<ExitCode> {
     if job.args.watch {
         return watch::run(&job, &bar);
     }
-    let (kept, progress) = (&mut Kept::default(), Show { progress: &bar, bar: &bar, is_preview: false });
+    let (kept, progress) =
+        (&mut Kept::default(), Show { progress: &bar, bar: &bar, is_preview: false, told: None });
     job.render(job.stage()?, kept, &progress, job.begun).map(|()| ExitCode::SUCCESS)
 }
 
@@ -77,6 +79,8 @@ pub(super) struct Show<'a> {
     pub bar: &'a Bar,
     /// The picture is followed by a better one, of which alone is spoken.
     pub is_preview: bool,
+    /// The warnings of the picture before, where there are several; they are not told again.
+    pub told: Option<&'a RefCell<Vec<String>>>,
 }
 
 impl<'a> Job<'a> {
@@ -159,6 +163,11 @@ impl<'a> Job<'a> {
         }
         ran.report.left_out.extend(dropped);
         self.add_warnings(&scene, &mut ran);
+        if let Some(told) = show.told {
+            let all = ran.report.warnings.clone();
+            ran.report.warnings.retain(|warning| !told.borrow().contains(warning));
+            told.replace(all);
+        }
         let layers = wanted.render(&scene, &options, on, Some(&ran), show.progress)?;
         show.bar.finish();
 

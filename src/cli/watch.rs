@@ -1,6 +1,7 @@
 //! `moire render --watch`: renders again whenever a file of the scene changes. Input: the options of a render. Output: its
 //! files, soon a first look and then the whole picture, until Ctrl-C. Errors are told, and the next change is waited for.
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,6 +24,10 @@ const POLL: Duration = Duration::from_millis(40);
 /// Time without a change after which a file is taken to be written, and the longest that is waited for it.
 const SETTLED: Duration = Duration::from_millis(20);
 const LONGEST_WRITE: Duration = Duration::from_secs(2);
+/// Time without a change after which a mistake is told: a file that is being written is wrong for a moment.
+const PATIENCE: Duration = Duration::from_millis(400);
+/// Time between two looks whether a scene that could not be read can be: a file that it names may have come.
+const RETRY: Duration = Duration::from_secs(1);
 /// Seconds of a whole picture below which no first look comes before it.
 const SOON: f64 = 0.2;
 
@@ -35,10 +40,12 @@ pub(super) fn run(job: &Job<'_>, bar: &Bar) -> Result<ExitCode> {
     files.add(scene.to_owned());
     let mut last_whole = f64::INFINITY;
     let mut is_told = job.args.quiet;
+    let told = RefCell::new(Vec::new());
     while !bar.cancelled() {
         files.look();
         let start = Instant::now();
-        match picture(job, &mut files, &mut kept, bar, last_whole) {
+        let (mut mistake, mut is_unread) = (None, false);
+        match picture(job, &mut files, &mut kept, &Told { bar, warnings: &told }, last_whole) {
             Ok(()) => last_whole = start.elapsed().as_secs_f64(),
             Err(Error::Interrupted) if bar.cancelled() => break,
             // A file has changed meanwhile.
@@ -49,15 +56,22 @@ pub(super) fn run(job: &Job<'_>, bar: &Bar) -> Result<ExitCode> {
                     kept.close();
                 }
                 bar.finish();
-                super::tell(error);
+                mistake = Some(error);
             }
+        }
+        if let Some(mistake) = mistake
+            && !files.change_within(bar, PATIENCE)
+        {
+            super::tell(mistake);
+            is_unread = job.stage().is_err();
         }
         if !is_told {
             let count = counted(files.0.len(), "file");
             super::notify(format_args!("watching {count} for changes; Ctrl-C ends"));
             is_told = true;
         }
-        files.wait(bar);
+        let is_read = || job.stage().is_ok();
+        files.wait(bar, is_unread.then_some(&is_read));
     }
     bar.finish();
     Ok(ExitCode::from(130))
@@ -84,8 +98,21 @@ fn check(job: &Job<'_>, scene: &Path) -> Result<()> {
     job.outputs.files.iter().try_for_each(|path| output::check_writable(path))
 }
 
+/// How a picture tells of itself, and what was told of the one before.
+struct Told<'a> {
+    bar: &'a Bar,
+    warnings: &'a RefCell<Vec<String>>,
+}
+
 /// Makes the picture of the files as they are: a first look, unless the whole is there as soon.
-fn picture(job: &Job<'_>, files: &mut Files, kept: &mut Kept, bar: &Bar, last_whole: f64) -> Result<()> {
+fn picture(
+    job: &Job<'_>,
+    files: &mut Files,
+    kept: &mut Kept,
+    told: &Told<'_>,
+    last_whole: f64,
+) -> Result<()> {
+    let (bar, warnings) = (told.bar, Some(told.warnings));
     let start = Instant::now();
     let stage = job.stage()?;
     files.add_all(&stage.scene);
@@ -94,10 +121,10 @@ fn picture(job: &Job<'_>, files: &mut Files, kept: &mut Kept, bar: &Bar, last_wh
         let mut quick = job.stage()?;
         let sampling = &mut quick.scene.sampling;
         (sampling.spp, sampling.algorithm) = (1, Algorithm::Samples);
-        job.render(quick, kept, &Show { progress: &until_change, bar, is_preview: true }, start)?;
+        job.render(quick, kept, &Show { progress: &until_change, bar, is_preview: true, told: None }, start)?;
     }
     bar.restart();
-    job.render(stage, kept, &Show { progress: &until_change, bar, is_preview: false }, start)
+    job.render(stage, kept, &Show { progress: &until_change, bar, is_preview: false, told: warnings }, start)
 }
 
 /// Returns true if one sample a pixel takes much less time than the whole picture.
@@ -133,11 +160,26 @@ impl Files {
         self.0.iter().any(|(path, seen)| stamp(path) != *seen)
     }
 
-    /// Waits until a file has changed and is written, or until Ctrl-C. An editor may put a new file in the place of the old
-    /// one, which is missing for a moment.
-    fn wait(&mut self, bar: &Bar) {
-        while !bar.cancelled() && !self.has_changed() {
+    /// Returns true as soon as a file changes in this time.
+    fn change_within(&self, bar: &Bar, time: Duration) -> bool {
+        let start = Instant::now();
+        while !bar.cancelled() && start.elapsed() < time {
+            if self.has_changed() {
+                return true;
+            }
             sleep(POLL);
+        }
+        // This process may have been stopped for a while.
+        self.has_changed()
+    }
+
+    /// Waits until a file has changed and is written, until `is_over` says so, or until Ctrl-C. An editor may put a new file in
+    /// the place of the old one, which is missing for a moment.
+    fn wait(&mut self, bar: &Bar, is_over: Option<&dyn Fn() -> bool>) {
+        while !bar.cancelled() && !self.change_within(bar, RETRY) {
+            if is_over.is_some_and(|is_over| is_over()) {
+                return;
+            }
         }
         let was_there: Vec<bool> = self.0.iter().map(|(_, seen)| seen.is_some()).collect();
         let start = Instant::now();

@@ -152,11 +152,29 @@ fn trimmed(text: &str, range: Range<usize>) -> Range<usize> {
     start..start + word.trim().len()
 }
 
-/// Returns a number that TOML has not, written as TOML has it.
+/// Returns a number that TOML has not, or a list with such numbers, written as TOML has it.
 fn number(word: &str) -> Option<String> {
+    if DeValue::parse(word).is_ok() {
+        return None;
+    }
+    if !word.starts_with('[') {
+        return plain(word);
+    }
+    let mut list = String::new();
+    for part in word.split_inclusive(['[', ']', ',']) {
+        let number = part.trim_end_matches(['[', ']', ',']);
+        let known = plain(number.trim()).filter(|_| DeValue::parse(number.trim()).is_err());
+        list += known.as_deref().unwrap_or(number);
+        list += &part[number.len()..];
+    }
+    DeValue::parse(&list).is_ok().then_some(list)
+}
+
+/// Returns a finite number of digits, signs, dots and exponents as TOML has it.
+fn plain(word: &str) -> Option<String> {
     let is_plain = word.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
     let number = word.parse::<f64>().ok().filter(|number| is_plain && number.is_finite())?;
-    DeValue::parse(word).is_err().then(|| format!("{number:?}"))
+    Some(format!("{number:?}"))
 }
 
 #[cfg(test)]
@@ -206,6 +224,11 @@ mod tests {
         assert_eq!(number("a=.5").as_deref(), Some("0.5"));
         assert_eq!(number("a=2.").as_deref(), Some("2.0"));
         assert_eq!(number("a=-.5e3").as_deref(), Some("-500.0"));
+        assert_eq!(number("a=[.5, 1., -3]").as_deref(), Some("[0.5,1.0, -3]"));
+        assert_eq!(number("a=[[.5,1],[2.,3]]").as_deref(), Some("[[0.5,1],[2.0,3]]"));
+        for text in ["a=[1, 2.5]", "a=[1, x]", "a=[.5, \"x", "a=[.5", "a=[\"a,.5\"]"] {
+            assert_eq!(number(text), None, "{text}");
+        }
         for text in ["a=1", "a=0.5", "a=inf", "a=e", "a=1.2.3", "a=9e999"] {
             assert_eq!(number(text), None, "{text}");
         }

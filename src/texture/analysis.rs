@@ -63,6 +63,11 @@ pub struct Analysis {
 /// Analyses a texture. Range and mean are those of the values a lookup returns: with
 /// `ColorSpace::Srgb` they are in linear light.
 pub fn analyse(texture: &TextureData) -> Analysis {
+    analyse_along(texture, [true; 2])
+}
+
+/// Analyses a texture as [`analyse`] does, along the chosen of the axes u and v; the seam of another is unknown.
+pub fn analyse_along(texture: &TextureData, [along_u, along_v]: [bool; 2]) -> Analysis {
     let count = texture.file_channels;
     let (width, height) = (texture.width as usize, texture.height as usize);
     let rows = Rows::new(texture);
@@ -76,12 +81,13 @@ pub fn analyse(texture: &TextureData) -> Analysis {
     let mut row = rows.stored(0);
     let mut mapped = rows.map_row(&row);
     for y in 0..height {
-        let seam = &seam_u.mapped[y * count..][..count];
-        let (stored, mapped_differences) =
-            (neighbour_differences(&row, count), neighbour_differences(&mapped, count));
-        for (x, (d, e)) in stored.chunks_exact(count).zip(mapped_differences.chunks_exact(count)).enumerate()
-        {
-            u.add(x, d, e, seam);
+        if along_u {
+            let seam = &seam_u.mapped[y * count..][..count];
+            let (stored, mapped) =
+                (neighbour_differences(&row, count), neighbour_differences(&mapped, count));
+            for (x, (d, e)) in stored.chunks_exact(count).zip(mapped.chunks_exact(count)).enumerate() {
+                u.add(x, d, e, seam);
+            }
         }
         let mut row_sums = vec![0.0; count];
         for (x, texel) in row.chunks_exact(count).enumerate() {
@@ -97,7 +103,9 @@ pub fn analyse(texture: &TextureData) -> Analysis {
         if y + 1 < height {
             let next = rows.stored(y + 1);
             let next_mapped = rows.map_row(&next);
-            v.add(y, &differences(&next, &row), &differences(&next_mapped, &mapped), &seam_v.mapped);
+            if along_v {
+                v.add(y, &differences(&next, &row), &differences(&next_mapped, &mapped), &seam_v.mapped);
+            }
             (row, mapped) = (next, next_mapped);
         }
     }
@@ -107,8 +115,11 @@ pub fn analyse(texture: &TextureData) -> Analysis {
         channel.mean = (finite > 0).then(|| sum / finite as f64);
     }
     let grain = rows.grain();
-    let u = axis(&u, || rows.lines(width, height, true), grain);
-    let v = axis(&v, || rows.lines(height, width, false), grain);
+    let of = |is_chosen: bool, steps: &Steps, lines: &dyn Fn() -> Vec<Vec<f32>>| {
+        if is_chosen { axis(steps, lines, grain) } else { AxisAnalysis::unknown() }
+    };
+    let u = of(along_u, &u, &|| rows.lines(width, height, true));
+    let v = of(along_v, &v, &|| rows.lines(height, width, false));
     Analysis { channels, non_finite_texels, first_non_finite, u, v }
 }
 
@@ -144,6 +155,21 @@ pub fn channel_names(texture: &TextureData) -> &'static [&'static str] {
     &names[..texture.file_channels]
 }
 
+impl AxisAnalysis {
+    /// Returns what is known of an axis that was not looked at.
+    fn unknown() -> AxisAnalysis {
+        AxisAnalysis {
+            seam_rms: None,
+            interior_rms: None,
+            ratio: None,
+            rank: None,
+            period: None,
+            recurrence: None,
+            seam: Seam::Unknown,
+        }
+    }
+}
+
 /// `grain`: by how much roundings change the difference of two steps.
 fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>, grain: f32) -> AxisAnalysis {
     let (seam_rms, interior_rms) = (steps.seam_rms(), steps.interior_rms());
@@ -152,15 +178,7 @@ fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>, grain: f32) -> AxisAna
         _ => None,
     };
     let rank = steps.sizes().map(|sizes| SeamRank::new(&sizes));
-    let mut axis = AxisAnalysis {
-        seam_rms,
-        interior_rms,
-        ratio,
-        rank,
-        period: None,
-        recurrence: None,
-        seam: Seam::Unknown,
-    };
+    let mut axis = AxisAnalysis { seam_rms, interior_rms, ratio, rank, ..AxisAnalysis::unknown() };
     axis.seam = match (seam_rms, rank) {
         _ if steps.is_empty() => Seam::Constant,
         (None, _) | (_, None) => Seam::Unknown,

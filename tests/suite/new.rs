@@ -114,6 +114,125 @@ fn a_set_is_recognised_by_names_and_what_has_no_map_is_left_out() {
     assert!(alone.materials[0].texture.is_some(), "a picture alone is of colours");
 }
 
+/// Writes a JPEG with a mark at one end, and Exif data with this orientation.
+fn turned(folder: &TempDir, name: &str, orientation: u8) {
+    let path = picture(folder, name, [16, 8], |x, _| [if x < 4 { 1.0 } else { 0.0 }; 3]);
+    let jpeg = fs::read(&path).unwrap();
+    let exif =
+        [&b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0"[..], &[orientation], &[0; 6]].concat();
+    let segment = [&b"\xff\xe1"[..], &(exif.len() as u16 + 2).to_be_bytes(), &exif].concat();
+    fs::write(path, [&jpeg[..2], &segment, &jpeg[2..]].concat()).unwrap();
+}
+
+#[test]
+fn every_orientation_is_applied_and_said() {
+    for orientation in 1..=8u8 {
+        let folder = tempdir().unwrap();
+        turned(&folder, "p.jpg", orientation);
+        let scene = made(&folder, &["quad", "-t", "p.jpg"], "quad.toml");
+        let upright = if orientation < 5 { [16, 8] } else { [8, 16] };
+        assert_eq!([scene.width, scene.height], upright, "{orientation}");
+        let text = fs::read_to_string(folder.path().join("quad.toml")).unwrap();
+        assert!(text.contains(&format!("{} x {} texels", upright[0], upright[1])), "{orientation}: {text}");
+        assert_eq!(text.contains("turned upright"), orientation != 1, "{orientation}: {text}");
+        let output = moire()
+            .current_dir(folder.path())
+            .args(["render", "quad.toml", "--spp", "1", "--device", "oracle", "-q", "-o", "q.exr"])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", told(&output));
+        // Where the mark of the file's first columns is seen (Exif 2.32, 4.6.4).
+        let film = Film::open(folder.path().join("q.exr")).unwrap();
+        let [width, height] = [film.width as usize, film.height as usize];
+        let bright = |x: usize, y: usize| film.pixels[y * width + x][0] > 0.5;
+        let (left, right) = (bright(0, height / 2), bright(width - 1, height / 2));
+        let (top, bottom) = (bright(width / 2, 0), bright(width / 2, height - 1));
+        let seen = [left, right, top, bottom];
+        let place = match orientation {
+            1 | 4 => "left",
+            2 | 3 => "right",
+            5 | 6 => "top",
+            _ => "bottom",
+        };
+        let wanted = ["left", "right", "top", "bottom"].map(|side| side == place);
+        assert_eq!(seen, wanted, "{orientation}: {place}");
+    }
+}
+
+#[test]
+fn alpha_is_a_mask_or_blended_or_not_mentioned() {
+    for (name, alpha, wanted) in [
+        ("opaque", (|_| 255) as fn(u32) -> u8, None),
+        ("cut-out", |i| if i % 16 < 5 { 0 } else { 255 }, Some("alpha = \"mask\"")),
+        ("smooth", |i| (i % 16 * 17) as u8, Some("alpha = \"blend\"")),
+    ] {
+        let folder = tempdir().unwrap();
+        let texels: Vec<u8> = (0..256).flat_map(|i| [i as u8, 99, 30, alpha(i)]).collect();
+        let file = fs::File::create(folder.path().join("p.png")).unwrap();
+        let mut encoder = png::Encoder::new(file, 16, 16);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.write_header().unwrap().write_image_data(&texels).unwrap();
+        made(&folder, &["quad", "-t", "p.png"], "quad.toml");
+        let text = fs::read_to_string(folder.path().join("quad.toml")).unwrap();
+        let found = text.lines().find(|line| line.starts_with("alpha"));
+        assert_eq!(found.map(|line| line.split("  ").next().unwrap()), wanted, "{name}");
+    }
+}
+
+#[test]
+fn maps_of_other_programs_are_taken_by_their_names_or_named() {
+    let folder = tempdir().unwrap();
+    for (i, name) in
+        ["T_Rock_D", "T_Rock_ORM", "Rock_Cavity", "Rock_RMA", "Rock_Opacity", "preview"].iter().enumerate()
+    {
+        let red = 0.1 * i as f32;
+        picture(&folder, &format!("{name}.png"), [8, 8], move |x, y| {
+            [red, 0.3 + 0.05 * x as f32, 0.05 * y as f32]
+        });
+    }
+    // A folder stands for its pictures, and options may come before the kind.
+    fs::create_dir(folder.path().join("scenes")).unwrap();
+    let scene = made(&folder, &["-o", "scenes/s.toml", "-t", ".", "ball"], "scenes/s.toml");
+    assert!(refused(&folder, &["-t", "scenes"]).contains("scenes: there are no pictures in this folder"));
+    let file = |texture: usize| scene.textures[texture].content.files()[0].file_name().unwrap().to_owned();
+    assert_eq!(file(scene.materials[0].texture.unwrap()), "T_Rock_D.png");
+    let output = new(
+        folder.path(),
+        &words(&["ball", "-t", "T_Rock_ORM.png", "T_Rock_D.png", "Rock_Cavity.png", "Rock_RMA.png"]),
+    );
+    let said = told(&output);
+    for what in ["no material here has a map of this kind (\"cavity\")", "in another order (\"rma\")"] {
+        assert!(said.contains(what), "{said}");
+    }
+    let text = fs::read_to_string(folder.path().join("ball.toml")).unwrap();
+    assert!(text.contains("metallic_roughness_map = \"packed\""), "{text}");
+}
+
+#[test]
+fn gloss_and_metal_in_one_become_means() {
+    let folder = tempdir().unwrap();
+    let file = fs::File::create(folder.path().join("Rock_MetallicSmoothness.png")).unwrap();
+    let mut encoder = png::Encoder::new(file, 2, 2);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(&[51, 0, 0, 204].repeat(4)).unwrap();
+    picture(&folder, "Rock_Albedo.png", [2, 2], |_, _| [0.5; 3]);
+    let set = ["ball", "-t", "Rock_Albedo.png", "Rock_MetallicSmoothness.png"];
+    let material = made(&folder, &set, "ball.toml").materials[0].clone();
+    assert_eq!((material.metallic, material.roughness), (0.2, 0.2));
+}
+
+#[test]
+fn a_model_keeps_its_materials_under_a_sky() {
+    let folder = tempdir().unwrap();
+    picture(&folder, "sky.hdr", [16, 8], |x, y| [x as f32, y as f32, 3.0]);
+    let file = fs::canonicalize(data().join("models/crate.obj")).unwrap();
+    let scene = made(&folder, &["model", file.to_str().unwrap(), "-t", "sky.hdr"], "model.toml");
+    assert!(scene.background.environment.is_some() && matches!(scene.lights[..], [Light::Environment]));
+    assert!(scene.materials.iter().any(|material| material.texture.is_some()), "the crate has a texture");
+    let quad = made(&folder, &["quad", "-t", "sky.hdr"], "quad.toml");
+    assert!(quad.background.environment.is_none() && quad.materials[0].texture.is_some());
+}
+
 #[test]
 fn a_panorama_of_floats_is_sky_and_light() {
     let folder = tempdir().unwrap();
@@ -178,6 +297,7 @@ fn mistakes_name_the_file_and_what_is_allowed() {
     for (arguments, said) in [
         (&["-t", "missing.jpg"][..], "missing.jpg: there is no such file"),
         (&["-t", "broken.png"], "broken.png: not a picture"),
+        (&["-t", "a.<UDIM>.png"], "a new scene takes single pictures"),
         (&["flor"], "flor: expected one of floor, ball, quad, model"),
         (&["@lectur"], "did you mean \"@lecture\"?"),
         (&["floor", "-t", "x.glb"], "x.glb: this is a model, and a floor has none"),

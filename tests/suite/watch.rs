@@ -48,6 +48,14 @@ fn pixel(path: &Path) -> Option<[f32; 3]> {
     path.exists().then(|| Film::open(path).unwrap().pixels[0])
 }
 
+fn wait_for_words(path: &Path, words: &str) {
+    let start = std::time::Instant::now();
+    while !fs::read_to_string(path).unwrap().contains(words) {
+        assert!(start.elapsed() < HANG, "{}", fs::read_to_string(path).unwrap());
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+}
+
 fn write_texture(folder: &Path, color: [f32; 3]) {
     let film = Film { width: 1, height: 1, pixels: vec![color], samples: 1 };
     film.save(folder.join("t.png")).unwrap();
@@ -76,19 +84,35 @@ fn pictures_follow_the_scene_through_mistakes_and_renamed_files_until_ctrl_c() {
     fs::write(path("s.toml"), SCENE.replace("[1.0, 0.0, 0.0]", "[0.0, 1.0, 0.0]")).unwrap();
     wait_for([0.0, 1.0, 0.0]);
 
+    // An editor that writes slowly: half a file is no mistake.
+    let blue = SCENE.replace("[1.0, 0.0, 0.0]", "[0.0, 0.0, 1.0]");
+    fs::write(path("s.toml"), &blue[..blue.len() - 8]).unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(80));
+    fs::write(path("s.toml"), &blue).unwrap();
+    wait_for([0.0, 0.0, 1.0]);
+    assert!(!fs::read_to_string(path("told")).unwrap().contains("TOML syntax"));
+    fs::write(path("s.toml"), SCENE.replace("[1.0, 0.0, 0.0]", "[0.0, 1.0, 0.0]")).unwrap();
+    wait_for([0.0, 1.0, 0.0]);
+
     // A mistake is told, and mended by an editor that renames.
     fs::write(path("s.toml"), SCENE.replace("spp", "ssp")).unwrap();
-    let mut mistake = String::new();
-    let start = std::time::Instant::now();
-    while !mistake.contains("unknown key \"ssp\"") {
-        assert!(start.elapsed() < HANG, "{mistake}");
-        std::thread::sleep(std::time::Duration::from_millis(20));
-        mistake = fs::read_to_string(path("told")).unwrap();
-    }
+    wait_for_words(&path("told"), "unknown key \"ssp\"");
     assert_eq!(pixel(&path("a.exr")), Some([0.0, 1.0, 0.0]), "the picture stays");
     write_texture(folder.path(), [0.0, 0.0, 1.0]);
     fs::write(path("s.new"), format!("{SCENE}{SHAPE}")).unwrap();
     fs::rename(path("s.new"), path("s.toml")).unwrap();
+    wait_for([0.0, 0.0, 1.0]);
+
+    // A file that could not be read has never been watched, and comes all the same.
+    let with_mesh =
+        format!("{SCENE}\n[[mesh]]\nfile = \"m.stl\"\n").replace("[1.0, 0.0, 0.0]", "[1.0, 1.0, 1.0]");
+    fs::write(path("s.toml"), with_mesh).unwrap();
+    wait_for_words(&path("told"), "cannot read mesh m.stl");
+    let corners = "vertex 0 0 0\nvertex 0.1 0 0\nvertex 0 0.1 0";
+    let facet = format!("facet normal 0 0 1\nouter loop\n{corners}\nendloop\nendfacet");
+    fs::write(path("m.stl"), format!("solid m\n{facet}\nendsolid m\n")).unwrap();
+    wait_for([1.0, 1.0, 1.0]);
+    fs::write(path("s.toml"), format!("{SCENE}{SHAPE}")).unwrap();
     wait_for([0.0, 0.0, 1.0]);
 
     // A texture alone changes.
@@ -101,7 +125,7 @@ fn pictures_follow_the_scene_through_mistakes_and_renamed_files_until_ctrl_c() {
     let mut names: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["a.exr", "s.toml", "t.png", "told"]);
+    assert_eq!(names, ["a.exr", "m.stl", "s.toml", "t.png", "told"]);
     assert!(fs::read_to_string(path("told")).unwrap().contains("watching 1 file for changes; Ctrl-C ends"));
 }
 

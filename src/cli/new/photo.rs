@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use super::names::{self, Role};
 use super::{bands, green};
+use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
-use crate::texture::analysis::analyse;
+use crate::texture::analysis::analyse_along;
 use crate::texture::analysis_levels::analyse_normals;
 use crate::texture::color_profile::color_profile;
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
@@ -83,7 +84,10 @@ impl Photo {
         let texture = texture_of("photo", Dimension::Two, ColorSpace::Linear, picture);
         check_finite(&texture, path)?;
         let rows = bands::rows(&texture);
-        let (along_u, along_v) = rayon::join(|| analyse(&rows), || analyse(&bands::columns(&texture)));
+        let (along_u, along_v) = rayon::join(
+            || analyse_along(&rows, [true, false]),
+            || analyse_along(&bands::columns(&texture), [false, true]),
+        );
         let named = Role::of(path);
         let normals = analyse_normals(&rows);
         let is_normals = normals.as_ref().is_some_and(|normals| normals.is_normal_map());
@@ -133,7 +137,7 @@ fn check_finite(texture: &TextureData, path: &Path) -> Result<()> {
     match texture.nonfinite_texels() {
         0 => Ok(()),
         count => Err(Error::with_help(
-            format!("{}: {count} texels are NaN or infinite", path.display()),
+            format!("{}: NaN or infinity in {}", path.display(), counted(count, "texel")),
             "replace them; or name the file in a scene, and let them in: moire render --allow-nonfinite",
         )),
     }

@@ -4,7 +4,8 @@
 
 use std::path::Path;
 
-use moire::internal::scene::parse;
+use moire::internal::core::error::Error;
+use moire::internal::scene::{Reading, Scene, Setting, parse, parse_as};
 
 /// A table of the format, with the least that it takes to be read.
 pub struct Context {
@@ -70,6 +71,40 @@ impl Context {
     /// Returns what the reader says of that scene, if it refuses it.
     pub fn error(&self, kind: Option<&str>, key: &str, value: Option<&str>) -> Option<String> {
         parse(Path::new("scene.toml"), &self.scene(kind, key, value)).err().map(|e| e.to_string())
+    }
+
+    /// Returns the words that a key takes, as TOML has them.
+    pub fn words_of(&self, key: &str) -> Vec<String> {
+        let able = self.able(key);
+        let kind = able.first().filter(|_| able.len() < self.words().len()).map(String::as_str);
+        let told = self.error(kind, key, Some(NO_WORD)).filter(|told| told.contains("unknown value"));
+        told.map_or(Vec::new(), |told| listed(&told)).iter().map(|word| format!("\"{word}\"")).collect()
+    }
+
+    /// Returns what a setting of a key says of the scene, and what the file says with the same value, of the first kind that
+    /// has the key.
+    pub fn set_and_written(&self, key: &str, value: &str) -> [Result<String, String>; 2] {
+        let able = self.able(key);
+        let kind = able.first().filter(|_| able.len() < self.words().len()).map(String::as_str);
+        let header = self.header.trim_matches(['[', ']']);
+        let item = match (self.header.starts_with("[["), header) {
+            (false, _) => header.to_owned(),
+            // Behind that of the rest of the scene.
+            (true, "texture") => "texture.1".to_owned(),
+            (true, _) => format!("{header}.0"),
+        };
+        let holder = self.inline.map_or(String::new(), |(holder, _)| format!("{holder}."));
+        let setting = Setting::parse(&format!("{item}.{holder}{}={value}", quoted(key))).unwrap();
+        let reading = Reading { settings: &[setting], ..Reading::default() };
+        let path = Path::new("scene.toml");
+        let of = |scene: Result<Scene, Error>| {
+            let scene = scene.map(|scene| Scene { settings: Vec::new(), ..scene });
+            scene.map(|scene| format!("{scene:?}")).map_err(|error| error.to_string())
+        };
+        [
+            of(parse_as(path, &self.scene(kind, key, None), &reading)),
+            of(parse(path, &self.scene(kind, key, Some(value)))),
+        ]
     }
 
     /// Returns the scene as it is read, of the first kind that has the key.

@@ -273,6 +273,58 @@ fn defaults_of_the_reference_are_those_of_the_reader() {
     assert!(stated > 30, "only {stated} defaults were compared");
 }
 
+/// Values of the kinds that keys take, some of which each key refuses.
+const TRIED: &[&str] = &[
+    "\"?\"",
+    "0",
+    "1",
+    "-1",
+    "2.5",
+    "1e3",
+    "true",
+    "[0, 1]",
+    "[1.0, 0.5, 0.25]",
+    "[0, 0, 0, 1]",
+    "\"t\"",
+    "\"m\"",
+    "[]",
+    "{}",
+    "[[0, 0, 0]]",
+    "[-1, 2, 1e31]",
+    "{ kind = \"planar\" }",
+    "{ eye = [1, 0, 0] }",
+];
+
+#[test]
+fn a_setting_of_any_key_does_what_the_file_with_that_value_does() {
+    let (mut accepted, mut refused, mut keys) = (0, 0, 0);
+    for context in CONTEXTS {
+        for key in context.keys() {
+            keys += 1;
+            let words = context.words_of(&key);
+            let mut outcomes = Vec::new();
+            for value in TRIED.iter().map(|value| (*value).to_owned()).chain(words) {
+                let [set, written] = context.set_and_written(&key, &value);
+                let place = format!("{} {key} = {value}", context.heading);
+                match (&set, &written) {
+                    (Ok(set), Ok(written)) => assert_eq!(set, written, "{place}"),
+                    (Err(set), Err(written)) => {
+                        // Both say what, after the place.
+                        let what = written.split_once(": ").unwrap_or_else(|| panic!("{place}: {written}")).1;
+                        assert!(set.ends_with(what), "{place}:\n{set}\n{written}");
+                        refused += 1;
+                    }
+                    _ => panic!("{place}:\n{set:?}\n{written:?}"),
+                }
+                accepted += usize::from(set.is_ok());
+                outcomes.push(set.is_ok());
+            }
+            assert!(outcomes.contains(&false), "{}: {key} takes anything", context.heading);
+        }
+    }
+    assert!(keys > 150 && accepted > 300 && refused > 1000, "{keys} keys, {accepted}, {refused}");
+}
+
 /// The first scene of the page is complete.
 #[test]
 fn the_scene_of_the_reference_can_be_read() {

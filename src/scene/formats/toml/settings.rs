@@ -36,7 +36,8 @@ fn value<'a>(setting: &'a Setting, base: usize, source: Source<'_>) -> Result<Va
     match DeValue::parse(text) {
         // No key holds a date.
         Ok(value) if value.get_ref().is_datetime() => Ok(Spanned::new(span, DeValue::String(word.into()))),
-        Ok(value) if setting.number.is_some() => Ok(Spanned::new(span, value.into_inner())),
+        // Its parts stand elsewhere in what was typed.
+        Ok(value) if setting.number.is_some() => Ok(at_once(value, &span)),
         Ok(value) => Ok(shifted(value, span.start)),
         Err(error) if word.starts_with(['[', '{', '"', '\'']) => {
             let at = moved(&error.span().unwrap_or(0..0), span.start);
@@ -48,6 +49,15 @@ fn value<'a>(setting: &'a Setting, base: usize, source: Source<'_>) -> Result<Va
 
 fn moved(range: &Range<usize>, by: usize) -> Range<usize> {
     range.start + by..range.end + by
+}
+
+/// Returns the value with all its parts at one position.
+fn at_once<'a>(value: Value<'a>, span: &Range<usize>) -> Value<'a> {
+    let value = match value.into_inner() {
+        DeValue::Array(items) => DeValue::Array(items.into_iter().map(|item| at_once(item, span)).collect()),
+        plain => plain,
+    };
+    Spanned::new(span.clone(), value)
 }
 
 /// Returns the value with all its positions further behind.
