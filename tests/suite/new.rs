@@ -214,7 +214,7 @@ fn gloss_and_metal_in_one_become_means() {
     let file = fs::File::create(folder.path().join("Rock_MetallicSmoothness.png")).unwrap();
     let mut encoder = png::Encoder::new(file, 2, 2);
     encoder.set_color(png::ColorType::Rgba);
-    encoder.write_header().unwrap().write_image_data(&[51, 0, 0, 204].repeat(4)).unwrap();
+    encoder.write_header().unwrap().write_image_data(&[51u8, 0, 0, 204].repeat(4)).unwrap();
     picture(&folder, "Rock_Albedo.png", [2, 2], |_, _| [0.5; 3]);
     let set = ["ball", "-t", "Rock_Albedo.png", "Rock_MetallicSmoothness.png"];
     let material = made(&folder, &set, "ball.toml").materials[0].clone();

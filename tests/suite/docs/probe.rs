@@ -5,7 +5,8 @@
 use std::path::Path;
 
 use moire::internal::core::error::Error;
-use moire::internal::scene::{Reading, Scene, Setting, parse, parse_as};
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::{Reading, Setting, parse, parse_as};
 
 /// A table of the format, with the least that it takes to be read.
 pub struct Context {
@@ -98,13 +99,11 @@ impl Context {
         let reading = Reading { settings: &[setting], ..Reading::default() };
         let path = Path::new("scene.toml");
         let of = |scene: Result<Scene, Error>| {
-            let scene = scene.map(|scene| Scene { settings: Vec::new(), ..scene });
-            scene.map(|scene| format!("{scene:?}")).map_err(|error| error.to_string())
+            let scene = scene.map(|scene| format!("{:?}", Scene { settings: Vec::new(), ..scene }));
+            scene.map_err(|error| error.to_string())
         };
-        [
-            of(parse_as(path, &self.scene(kind, key, None), &reading)),
-            of(parse(path, &self.scene(kind, key, Some(value)))),
-        ]
+        let (without, with) = (self.scene(kind, key, None), self.scene(kind, key, Some(value)));
+        [of(parse_as(path, &without, &reading)), of(parse(path, &with))]
     }
 
     /// Returns the scene as it is read, of the first kind that has the key.
