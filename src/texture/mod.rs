@@ -31,7 +31,7 @@ pub mod orientation;
 pub mod prefix_sums;
 pub mod procedural;
 pub(crate) mod profile_colors;
-mod read_exr;
+pub(crate) mod read_exr;
 pub(crate) mod read_file;
 mod read_hdr;
 mod read_jpeg;

@@ -43,7 +43,8 @@ impl MaterialWriter<'_> {
         if photo.is_turned {
             text += ", turned upright as the file's orientation says";
         }
-        let profile = photo.profile.as_ref().map(|name| format!("not so in the file ({name})"));
+        let converted = photo.profile.as_ref().filter(|profile| profile.is_converted());
+        let profile = converted.map(|profile| format!("converted from {}", one_line(&profile.name)));
         let (space, why) = match (is_color, photo.is_float, photo.stated) {
             (_, true, _) => (ColorSpace::Linear, "floats are linear light"),
             (true, _, Some(ColorSpace::Linear)) => (ColorSpace::Linear, "the file says so"),

@@ -10,7 +10,7 @@ use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
 use crate::texture::analysis::analyse_along;
 use crate::texture::analysis_levels::analyse_normals;
-use crate::texture::color_profile::color_profile;
+use crate::texture::color_profile::ColorProfile;
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::decode::texture_of;
 use crate::texture::read_exr::color_layers;
@@ -33,8 +33,8 @@ pub(super) struct Photo {
     pub stated: Option<ColorSpace>,
     /// True if the file states that it is stored turned or mirrored.
     pub is_turned: bool,
-    /// The colour profile of the file, which is not applied, if its colours are not those of sRGB.
-    pub profile: Option<String>,
+    /// The colour profile of the file.
+    pub profile: Option<ColorProfile>,
     /// Layers with colours, if the file has several and the first is read by its name.
     pub layers: Vec<String>,
     /// Alpha below 1: true for a mask, false for all shares.
@@ -102,7 +102,7 @@ impl Photo {
             is_float,
             stated: facts.color_space,
             is_turned: is_turned(path),
-            profile: color_profile(path),
+            profile: facts.profile,
             layers,
             mask,
             // All OpenEXR files are so, by its specification.

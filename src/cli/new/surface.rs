@@ -137,9 +137,12 @@ impl Surface {
         let mut notes = Vec::new();
         for photo in [&self.color, &self.emission, &self.sky].into_iter().flatten() {
             let shown = photo.path.display();
-            if let Some(profile) = &photo.profile {
+            if let Some(profile) = &photo.profile
+                && let Some(why) = profile.fault()
+            {
+                let name = &profile.name;
                 notes.push(format!(
-                    "{shown}: its color profile ({profile}) is not applied; convert it to sRGB for true colors"
+                    "{shown}: its color profile ({name}) {why} and is not applied; convert it to sRGB for true colors"
                 ));
             }
             if photo.is_premultiplied {
