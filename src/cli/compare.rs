@@ -7,15 +7,16 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
+use super::interrupt;
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
 use crate::lab::metrics::{Comparison, common, compare, difference, flip, read_placed};
 use crate::output::{self, WriteOptions};
 
-/// Compare two pictures of the same size in linear RGB
+/// Compare two pictures in linear RGB
 ///
-/// Alpha is ignored, grey is replicated; 8- and 16-bit files are decoded from sRGB, float files are linear. If an EXR
+/// They have the same size. Alpha is ignored, grey is replicated; 8- and 16-bit files are decoded from sRGB, float files are linear. If an EXR
 /// file is a part of a picture, that part is compared. Exit code 1 if a NaN is present or a figure is above its bound.
 #[derive(Debug, clap::Args)]
 pub struct CompareArgs {
@@ -35,7 +36,9 @@ pub struct CompareArgs {
     /// Largest difference of one channel of a pixel, in linear light
     #[arg(long, value_name = "X", value_parser = bound, allow_negative_numbers = true)]
     pub max_diff: Option<f64>,
-    /// Write |A − B|, scaled so that the largest difference is white; pixels with NaN are magenta
+    /// Picture of |A − B|, scaled to white
+    ///
+    /// The largest difference is white; pixels with NaN are magenta.
     #[arg(long, value_name = "OUT.png")]
     pub diff: Option<PathBuf>,
     /// Print only what is above a bound, and errors
@@ -59,6 +62,7 @@ struct Report<'a> {
 }
 
 pub fn run(args: &CompareArgs) -> Result<ExitCode> {
+    interrupt::ends_at_once()?;
     if let Some(path) = &args.diff {
         output::check_writable(path)?;
     }

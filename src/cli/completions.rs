@@ -8,6 +8,7 @@ use clap_complete::Shell;
 
 use crate::core::error::Result;
 
+/// Print a script by which a shell completes commands and values
 #[derive(Args, Debug)]
 pub struct CompletionsArgs {
     /// Shell that shall complete

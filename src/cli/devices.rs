@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceSelect, list_devices};
 
+/// List the Vulkan devices
 #[derive(clap::Args, Clone, Debug)]
 pub struct DevicesArgs {
     /// Print one JSON array instead of text

@@ -11,16 +11,22 @@ use crate::output::{DisplayTransform, Format, Gamut, ToneMap, WriteOptions, pars
 /// What becomes of a film's colours in pictures for screens.
 #[derive(Args, Clone, Debug, Default)]
 pub struct DisplayArgs {
-    /// Exposure in stops, before the tone map [default: 0]
+    /// Exposure in stops [default: 0]
+    ///
+    /// Before the tone map.
     #[arg(long, value_name = "EV", value_parser = parse_stops, allow_negative_numbers = true, help_heading = DISPLAY)]
     exposure: Option<f64>,
-    /// Colour temperature, in kelvin, of the light that shall look white
+    /// Temperature of the light that shall look white
+    ///
+    /// In kelvin: lamps have about 2700, daylight 6500.
     #[arg(long, value_name = "KELVIN", value_parser = parse_kelvin, allow_negative_numbers = true, help_heading = DISPLAY)]
     white_balance: Option<f64>,
-    /// How radiance becomes the light of a screen; none clips it [default: none]
+    /// Tone map [default: none]
+    ///
+    /// How radiance becomes the light of a screen; none clips it.
     #[arg(long, value_name = "MAP", value_parser = named_parser(ToneMap::NAMES, ToneMap::from_name), help_heading = DISPLAY)]
     tone_map: Option<ToneMap>,
-    /// Primaries of the picture, with which it is tagged [default: srgb]
+    /// Primaries and their tag [default: srgb]
     #[arg(long, value_name = "SPACE", value_parser = named_parser(Gamut::NAMES, Gamut::from_name), help_heading = DISPLAY)]
     gamut: Option<Gamut>,
 }
@@ -30,10 +36,14 @@ pub struct DisplayArgs {
 pub struct FileArgs {
     #[command(flatten)]
     display: DisplayArgs,
-    /// Bits per channel of PNG files [default: 8]
+    /// Bits of PNG files [default: 8]
+    ///
+    /// Per channel.
     #[arg(long, value_name = "BITS", value_parser = ["8", "16"], help_heading = DISPLAY)]
     png_bits: Option<String>,
-    /// Quality of JPEG files: 1 (smallest) to 100 [default: 95]
+    /// Quality of JPEG files [default: 95]
+    ///
+    /// From 1 (smallest) to 100.
     #[arg(long, value_name = "Q", value_parser = clap::value_parser!(u8).range(1..=100), allow_negative_numbers = true, help_heading = DISPLAY)]
     jpeg_quality: Option<u8>,
 }

@@ -20,9 +20,11 @@ use crate::scene::model::Scene;
 
 #[derive(Args, Debug)]
 pub struct LayerArgs {
-    /// Layers to write too, separated by commas: into .exr as channels such as level.Y, beside x.png, .jpg and .tif as
-    /// false-colour pictures x.level.png
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::named_parser(Aov::NAMES, Aov::from_name), help_heading = OUTPUT)]
+    /// Layers to write too, such as level,depth: see --help
+    ///
+    /// Separated by commas: into .exr as channels such as level.Y, beside x.png, .jpg and .tif as false-colour pictures
+    /// x.level.png.
+    #[arg(long, value_name = "LIST", hide_possible_values = true, value_delimiter = ',', value_parser = super::named_parser(Aov::NAMES, Aov::from_name), help_heading = OUTPUT)]
     aov: Vec<Aov>,
     /// Write the layers alone, without the picture
     #[arg(long, requires = "aov", conflicts_with = "json", help_heading = OUTPUT)]

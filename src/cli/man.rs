@@ -8,17 +8,19 @@ use std::process::ExitCode;
 use clap::{Args, Command};
 use clap_mangen::Man;
 
-use super::OUTPUT;
+use super::{OUTPUT, interrupt};
 use crate::core::error::{Error, Result};
-use crate::output::{prepare_folder, write_file};
+use crate::output::{OutputFolder, write_file};
 
 /// The program and its version, at the foot of pages.
 const SOURCE: &str = concat!("moire ", env!("CARGO_PKG_VERSION"));
 
+/// Print the manual, or write a page for each command
 #[derive(Args, Debug)]
 pub struct ManArgs {
-    /// Folder for a page of each command, moire.1, moire-render.1 and so on; its last component is created if it is
-    /// missing
+    /// Folder for a page of each command: moire.1, moire-render.1, …
+    ///
+    /// Its last component is created if it is missing.
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     out: Option<PathBuf>,
 }
@@ -27,13 +29,14 @@ pub fn run(args: &ManArgs, mut command: Command) -> Result<ExitCode> {
     // Gives each command its full name, such as moire-render.
     command = command.disable_help_subcommand(true);
     command.build();
+    interrupt::ends_at_once()?;
     let Some(folder) = &args.out else {
         super::print_bytes(&page(&command)?)?;
         return Ok(ExitCode::SUCCESS);
     };
     let commands: Vec<&Command> = iter::once(&command).chain(command.get_subcommands()).collect();
     let file = |command: &Command| format!("{}.1", command.get_display_name().unwrap_or(command.get_name()));
-    prepare_folder(folder, &file(&command))?;
+    let _folder = OutputFolder::prepare(folder, &file(&command))?;
     commands.into_iter().try_for_each(|own| write_file(&folder.join(file(own)), &page(own)?))?;
     Ok(ExitCode::SUCCESS)
 }

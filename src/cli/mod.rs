@@ -4,7 +4,9 @@ pub mod compare;
 pub mod completions;
 pub mod devices;
 mod display;
+mod help;
 pub mod inspect;
+mod interrupt;
 mod layers;
 pub mod man;
 pub mod new;
@@ -47,13 +49,17 @@ use crate::core::panics;
 use crate::gpu;
 use crate::scene::synonyms::meant;
 
-/// Headings of option groups in the help.
-const OUTPUT: &str = "Output";
-const DISPLAY: &str = "Display";
-const SAMPLING: &str = "Sampling";
-const TEXTURES: &str = "Textures";
-const DEVICE: &str = "Device";
-const MEASURING: &str = "Measuring";
+/// Headings of option groups in the help: what a person wants to do.
+const VIEW: &str = "Choose what is seen";
+const OUTPUT: &str = "Write files";
+const REPORT: &str = "Tell more or less";
+const DISPLAY: &str = "Show on a screen";
+const SAMPLING: &str = "Take samples";
+const GOAL: &str = "Stop at a goal";
+const PIXELS: &str = "Filter pixels";
+const TEXTURES: &str = "Filter textures";
+const DEVICE: &str = "Choose devices";
+const MEASURING: &str = "Measure";
 
 /// Prepares the process. Must be called once, before anything else: a write beyond the file size
 /// limit (`ulimit -f`) then returns an error like a full disk, instead of a signal that would end

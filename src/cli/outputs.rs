@@ -1,6 +1,8 @@
 //! The outputs of a render: parses `-o` and `--format` into files and the format of standard
 //! output, or returns an error before anything is rendered.
 
+use std::ffi::OsString;
+use std::fs;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
@@ -115,13 +117,37 @@ fn place(path: &Path) -> PathBuf {
 
 /// Returns the scene's name with `.png`, in the current folder.
 pub fn default_name(scene: &Path) -> PathBuf {
+    let mut name = name_of(scene);
+    name.push(".png");
+    PathBuf::from(name)
+}
+
+/// Returns the folder that is asked for, or the scene's name with `-what` in the current folder: a new one, an empty one, or
+/// one that has one of the files `own`, by which an earlier run is known.
+pub fn folder_or_default(asked: Option<&Path>, scene: &Path, what: &str, own: &[&str]) -> Result<PathBuf> {
+    if let Some(folder) = asked {
+        return Ok(folder.to_owned());
+    }
+    let mut name = name_of(scene);
+    name.push(format!("-{what}"));
+    let folder = PathBuf::from(name);
+    let is_empty = || fs::read_dir(&folder).is_ok_and(|mut files| files.next().is_none());
+    if folder.is_dir() && !own.iter().any(|file| folder.join(file).is_file()) && !is_empty() {
+        return Err(Error::with_help(
+            format!("{}: this folder has files, and none of an earlier {what}", folder.display()),
+            "name another one with --out, or the same to write beside what is there",
+        ));
+    }
+    Ok(folder)
+}
+
+/// Returns the name of a scene, without folder and ending.
+pub fn name_of(scene: &Path) -> OsString {
     let built_in = BuiltIn::named(scene).ok().flatten();
     let stem = match built_in {
         Some(built_in) => Some(built_in.name.as_ref()),
         None if is_standard_input(scene) => None,
         None => scene.file_stem(),
     };
-    let mut name = stem.unwrap_or("scene".as_ref()).to_owned();
-    name.push(".png");
-    PathBuf::from(name)
+    stem.unwrap_or("scene".as_ref()).to_owned()
 }

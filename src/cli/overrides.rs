@@ -14,59 +14,77 @@ use crate::scene::{MAX_RADIUS, Reading, Setting};
 use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
 use super::quantity::{positive, samples, seconds, seed};
-use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
+use super::{DEVICE, GOAL, PIXELS, SAMPLING, TEXTURES, VIEW, named_parser};
 
 #[derive(Args, Clone, Debug)]
 pub struct Overrides {
-    /// Camera of a glTF file, by its number from 0 or its name [default: the first]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = OUTPUT)]
+    /// Camera of a glTF file: number from 0, or name [default: the first]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = VIEW)]
     camera: Option<String>,
-    /// Replace a value of the scene, such as sampler.ground.filter=ewa. May be given several times
-    #[arg(long, value_name = "KEY=VALUE", value_parser = str::parse::<Setting>, help_heading = OUTPUT)]
+    /// Replace a value of the scene, such as camera.eye=[0,1,4]
+    ///
+    /// Any key of the scene format, as SECTION.KEY=VALUE or SECTION.ITEM.KEY=VALUE, such as sampler.ground.filter=ewa;
+    /// ITEM is a name, a number from 0, or * for all. May be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = str::parse::<Setting>, help_heading = VIEW)]
     set: Vec<Setting>,
-    /// Picture size in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = OUTPUT)]
+    /// Picture size in pixels, such as 640x480
+    #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = VIEW)]
     size: Option<[u32; 2]>,
     /// Samples per pixel
     #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true, help_heading = SAMPLING)]
     spp: Option<u32>,
     /// Algorithm
+    ///
+    /// samples: the same number in each pixel; adaptive: more where they are needed; beam, cone: one a pixel, without
+    /// samples; auto: of these what suits the goal.
     #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help_heading = SAMPLING)]
     algorithm: Option<Algorithm>,
-    /// Render for this time, such as 50ms, 2s or 0.05 (seconds), and then stop, with --algorithm auto unless another is named
-    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with = "target_error", help_heading = SAMPLING)]
+    /// Render the best picture of this time, such as 50ms or 2s
+    ///
+    /// A number alone is seconds. With --algorithm auto unless another is named.
+    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with = "target_error", help_heading = GOAL)]
     budget: Option<f64>,
-    /// Render until the picture's RMSE is estimated to be this
-    #[arg(long, value_name = "RMSE", value_parser = positive, help_heading = SAMPLING)]
+    /// Render until the RMSE is estimated to be this
+    #[arg(long, value_name = "RMSE", value_parser = positive, help_heading = GOAL)]
     target_error: Option<f64>,
-    /// Sampling pattern
+    /// Pattern
+    ///
+    /// Where the samples of a pixel lie. `moire pattern NAME -o points.png` shows one.
     #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help_heading = SAMPLING)]
     pattern: Option<Pattern>,
-    /// Seed of the sampling pattern
+    /// Another set of random positions
     #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true, help_heading = SAMPLING)]
     seed: Option<u32>,
-    /// Look-up method of every sampler
+    /// Who filters, for all samplers
+    ///
+    /// The shader's own look-up, or the texture unit of the device.
     #[arg(long, value_name = "M", value_parser = named_parser(Method::NAMES, Method::from_name), help_heading = TEXTURES)]
     method: Option<Method>,
-    /// Filter of every sampler
+    /// Filter
+    ///
+    /// Of all samplers, in place of those of the scene.
     #[arg(long, value_name = "F", value_parser = named_parser(Filter::NAMES, Filter::from_name), help_heading = TEXTURES)]
     filter: Option<Filter>,
-    /// Footprint of a sample
+    /// Area that each look-up averages
     #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help_heading = TEXTURES)]
     footprint: Option<Footprint>,
     /// Precision of geometry
     #[arg(long, value_name = "P", value_parser = named_parser(Precision::NAMES, Precision::from_name), help_heading = DEVICE)]
     precision: Option<Precision>,
-    /// Levels that every sampler reads
+    /// How levels are read
+    ///
+    /// Of all samplers. With --filter linear, --mip linear is trilinear.
     #[arg(long, value_name = "M", value_parser = named_parser(LevelUse::NAMES, LevelUse::from_name), help_heading = TEXTURES)]
     mip: Option<LevelUse>,
-    /// Pixel filter
-    #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help_heading = SAMPLING)]
+    /// Filter
+    ///
+    /// Weights of the samples around a pixel (reconstruction filter).
+    #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help_heading = PIXELS)]
     pixel_filter: Option<PixelFilterKind>,
-    /// Radius of the pixel filter in pixels [default: by filter]
-    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true, help_heading = SAMPLING)]
+    /// Its radius in pixels [default: by filter]
+    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true, help_heading = PIXELS)]
     pixel_filter_radius: Option<f64>,
-    /// Use one set of displacements for all pixels
+    /// All pixels share their displacements
     #[arg(long, value_name = "BOOL", help_heading = SAMPLING)]
     shared: Option<bool>,
 }

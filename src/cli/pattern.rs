@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use serde_json::json;
 
-use super::named_parser;
+use super::{interrupt, named_parser};
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
 use crate::lab::pattern::measures::{mean_nearest_distance, occupied, star_discrepancy};
@@ -22,7 +22,7 @@ use crate::scene::model::Pattern;
 /// The largest number of points: more would merge into grey, and their spectra take minutes.
 const MAX_POINTS: u32 = 4096;
 
-/// Show a sample pattern: its points in a pixel, their power spectrum, measures of evenness
+/// Show a sample pattern and its power spectrum
 ///
 /// The picture. Above: the points with the pattern's strata and their projections on both axes; the mean
 /// power spectrum (black 0, middle grey 1 as of random points, white 2 and more); its radial mean from 0 to
@@ -63,6 +63,7 @@ struct Measures {
 }
 
 pub fn run(args: &PatternArgs) -> Result<ExitCode> {
+    interrupt::ends_at_once()?;
     let samples = samples(args)?;
     if let Some(path) = &args.out {
         output::check_writable(path)?;

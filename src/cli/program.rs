@@ -8,8 +8,8 @@ use std::process::ExitCode;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
-    compare, completions, devices, inspect, man, new, pattern, render, sheet, stability, study, texture,
-    verify, version, view,
+    compare, completions, devices, help, inspect, man, new, pattern, render, sheet, stability, study,
+    texture, verify, version, view,
 };
 use crate::core::error::Result;
 use crate::core::panics;
@@ -22,36 +22,33 @@ struct Cli {
     command: Command,
 }
 
+/// The options that end a render, by their identifiers.
+const GOALS: [&str; 2] = ["budget", "target_error"];
+
 #[derive(Subcommand)]
 enum Command {
-    /// Render a scene file into one or more pictures
     Render(Box<render::RenderArgs>),
-    /// Write a scene of your pictures or model, or copy one of the program
     New(new::NewArgs),
-    /// Show a scene in a browser, refined while one looks, with two settings side by side
     View(Box<view::ViewArgs>),
-    /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
-    /// Compare settings in one labelled picture or page
     Sheet(Box<sheet::SheetArgs>),
-    /// Show what a view needs of its textures, and which settings suit it
     Inspect(Box<inspect::InspectArgs>),
-    /// Compare two pictures in linear RGB
     Compare(compare::CompareArgs),
-    /// List the Vulkan devices
     Devices(devices::DevicesArgs),
-    /// Describe a texture file, and whether it tiles
     Texture(texture::TextureArgs),
-    /// Show a sample pattern and its power spectrum
     Pattern(pattern::PatternArgs),
-    /// Compare a device's samplers with the float64 oracle
     Verify(verify::VerifyArgs),
-    /// Sweep extreme cases on a device, with errors against float64
     Stability(stability::StabilityArgs),
-    /// Print a script by which a shell completes commands, options and values
     Completions(completions::CompletionsArgs),
-    /// Print the manual, or write a page for each command
     Man(man::ManArgs),
+}
+
+/// Returns the whole command line.
+fn command_line() -> clap::Command {
+    // A view is refused a goal: its help does not offer one.
+    let hidden =
+        |view: clap::Command| GOALS.iter().fold(view, |view, id| view.mut_arg(id, |goal| goal.hide(true)));
+    Cli::command().mut_subcommand("view", hidden)
 }
 
 /// Runs the command that the arguments name and prints its error.
@@ -59,7 +56,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     super::prepare_process();
     panics::record();
     super::exit_code(panics::contain(&"moire", || {
-        let matches = Cli::command().get_matches_from(arguments);
+        let matches = help::arrange(command_line()).get_matches_from(arguments);
         let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
         let own = matches.subcommand().map(|(_, own)| own);
         panics::contain(&format_args!("moire {}", command.name()), || command.run(own.unwrap_or(&matches)))
@@ -101,8 +98,8 @@ impl Command {
             Command::Pattern(args) => pattern::run(&args),
             Command::Verify(args) => verify::run(&args),
             Command::Stability(args) => stability::run(&args),
-            Command::Completions(args) => completions::run(&args, Cli::command()),
-            Command::Man(args) => man::run(&args, Cli::command()),
+            Command::Completions(args) => completions::run(&args, command_line()),
+            Command::Man(args) => man::run(&args, command_line()),
         }
     }
 }

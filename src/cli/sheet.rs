@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::display::DisplayArgs;
-use super::outputs::check_distinct;
+use super::outputs::{check_distinct, name_of};
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::render::check_inputs_kept;
 use super::render_args::parse_part;
 use super::vary::{self, Combination, Vary};
 use super::vary_mistakes::of_scene;
-use super::{DEVICE, MEASURING, OUTPUT};
+use super::{DEVICE, MEASURING, OUTPUT, REPORT};
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
 use crate::core::range::Rect;
@@ -31,6 +31,10 @@ use crate::texture::sampler_spec::SamplerSpec;
 /// The most samples of each half of a reference, unless their number is given.
 const MAX_HALF: u32 = 1 << 14;
 
+/// Headings of the options of sheets.
+const VARY: &str = "Choose what differs";
+const ARRANGE: &str = "Arrange the pictures";
+
 /// Compare settings in one labelled picture or page
 ///
 /// Renders the scene with each combination of the values of up to three settings: the first makes columns, the second
@@ -40,52 +44,63 @@ const MAX_HALF: u32 = 1 << 14;
 pub struct SheetArgs {
     /// Scene file or model
     scene: PathBuf,
-    /// A setting that varies: an option of `moire render` by its name, or a key of the scene, with its values. May be
-    /// given up to three times: columns, rows, blocks
-    #[arg(long, required = true, value_name = "NAME=A,B,…", value_parser = vary::parse, help_heading = OUTPUT)]
+    /// A setting that varies, such as filter=nearest,ewa; up to three times
+    ///
+    /// An option of `moire render` by its name, or a key of the scene, with its values. The first makes columns, the
+    /// second rows, the third blocks.
+    #[arg(long, required = true, value_name = "NAME=A,B,…", value_parser = vary::parse, help_heading = VARY)]
     vary: Vec<Vary>,
-    /// Picture or page to write; the ending selects: png jpg tif html. May be given several times [default: the scene's
-    /// name with -sheet.png, in the current folder]
+    /// Picture or page: .png .jpg .tif .html [default: the scene's name with -sheet.png]
+    ///
+    /// The ending selects the format. May be given several times. Without it the picture goes into the current folder.
     #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
-    /// Show only this part of each picture, enlarged, and where it lies
-    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_part)]
+    /// Show only this part of each picture, enlarged
+    ///
+    /// And where it lies in the whole.
+    #[arg(long, value_name = "X,Y,W,H", help_heading = ARRANGE, allow_hyphen_values = true, value_parser = parse_part)]
     zoom: Option<Rect>,
-    /// Show each pixel as a square of this many [default: as many as fit into 288, with --zoom]
-    #[arg(long, value_name = "N", help_heading = OUTPUT, conflicts_with = "cell", value_parser = clap::value_parser!(u32).range(1..=64))]
+    /// Pixels as squares of this many [default: as many as fit into 288, with --zoom]
+    #[arg(long, value_name = "N", help_heading = ARRANGE, conflicts_with = "cell", value_parser = clap::value_parser!(u32).range(1..=64))]
     zoom_factor: Option<u32>,
-    /// Show pictures at most this many pixels wide; wider ones are averaged over squares of pixels, and say so
-    #[arg(long, value_name = "PIXELS", help_heading = OUTPUT, value_parser = clap::value_parser!(u32).range(16..=16384))]
+    /// Show pictures at most this wide
+    ///
+    /// Wider ones are averaged over squares of pixels, and say so.
+    #[arg(long, value_name = "PIXELS", help_heading = ARRANGE, value_parser = clap::value_parser!(u32).range(16..=16384))]
     cell: Option<u32>,
     /// Most pictures in a row, where one setting varies [default: 4]
-    #[arg(long, value_name = "N", help_heading = OUTPUT, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", help_heading = ARRANGE, value_parser = clap::value_parser!(u32).range(1..=64))]
     columns: Option<u32>,
-    /// Show under each picture its difference from the reference, all on one scale
-    #[arg(long, help_heading = OUTPUT)]
+    /// Show differences from the reference, too
+    ///
+    /// Under each picture, all on one scale.
+    #[arg(long, help_heading = ARRANGE)]
     diff: bool,
     /// Reference: a picture file, or none [default: many samples without a prefilter, on the device]
     #[arg(long, value_name = "FILE|none", help_heading = MEASURING)]
     reference: Option<String>,
-    /// Samples per pixel of the rendered reference [default: as many as it takes to judge the cells, within about as much
-    /// time as they take]
+    /// Samples per pixel of the reference [default: as many as it takes to judge the cells]
+    ///
+    /// Within about as much time as the cells take.
     #[arg(long, value_name = "N", help_heading = MEASURING, conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SPP)))]
     reference_spp: Option<u32>,
-    /// Renders of each cell, of whose times the median counts
+    /// Renders of each cell; their median time counts
     #[arg(long, value_name = "N", help_heading = MEASURING, default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeats: u32,
     #[command(flatten)]
     overrides: Overrides,
     #[command(flatten)]
     display: DisplayArgs,
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
-    /// [default: discrete GPU, else integrated, else CPU]
+    /// Device: index, part of its name, cpu or gpu [default: discrete GPU, else integrated, else CPU]
+    ///
+    /// `moire devices` lists them.
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Option<String>,
     /// Print what was measured as one JSON object on stdout
-    #[arg(long, help_heading = OUTPUT)]
+    #[arg(long, help_heading = REPORT)]
     json: bool,
     /// Print nothing but errors
-    #[arg(short, long, help_heading = OUTPUT)]
+    #[arg(short, long, help_heading = REPORT)]
     quiet: bool,
 }
 
@@ -137,8 +152,9 @@ struct Output {
 fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
     let mut paths = args.output.clone();
     if paths.is_empty() {
-        let stem = args.scene.file_stem().unwrap_or("scene".as_ref()).to_string_lossy();
-        paths.push(format!("{stem}-sheet.png").into());
+        let mut name = name_of(&args.scene);
+        name.push("-sheet.png");
+        paths.push(name.into());
     }
     let output = |path: PathBuf| {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
@@ -248,7 +264,7 @@ fn job(
 }
 
 fn title(args: &SheetArgs) -> String {
-    let stem = args.scene.file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
+    let stem = name_of(&args.scene).to_string_lossy().into_owned();
     let given = [args.overrides.given(), args.display.given()].concat();
     let fixed = given.into_iter().filter(|(name, _)| *name != "size");
     let words = fixed.map(|(name, value)| label::setting(name, &value));

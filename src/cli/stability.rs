@@ -8,7 +8,7 @@ use super::progress::Bar;
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::stability::{all, page, run::run as run_cases, text::text};
-use crate::output::prepare_folder;
+use crate::output::OutputFolder;
 
 /// Sweep extreme cases on a device, with errors against float64
 ///
@@ -16,15 +16,17 @@ use crate::output::prepare_folder;
 /// ones, and the largest error with a derived bound. Exit code 1 if a bound is exceeded.
 #[derive(clap::Args, Clone, Debug)]
 pub struct StabilityArgs {
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
-    /// [default: discrete GPU, else integrated, else CPU]
+    /// Device: index, part of its name, cpu or gpu [default: discrete GPU, else integrated, else CPU]
+    ///
+    /// `moire devices` lists them.
     #[arg(long, value_name = "SEL")]
     device: Option<String>,
     /// Only cases whose name contains TEXT, such as "sums" or "dielectric/"
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
-    /// Folder for stability.html, a page with plots, and stability.json; its last component is created if it
-    /// is missing
+    /// Folder for stability.html, a page with plots, and stability.json
+    ///
+    /// Its last component is created if it is missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one JSON object with every point
@@ -47,9 +49,7 @@ pub fn run(args: &StabilityArgs) -> Result<ExitCode> {
         Some(text) => DeviceSelect::parse(text)?,
         None => DeviceSelect::Default,
     };
-    if let Some(folder) = &args.out {
-        prepare_folder(folder, page::PAGE)?;
-    }
+    let _folder = args.out.as_ref().map(|folder| OutputFolder::prepare(folder, page::PAGE)).transpose()?;
     let gpu = Gpu::open(&select)?;
     let report = run_cases(&gpu, all(), args.only.as_deref(), &bar);
     bar.finish();

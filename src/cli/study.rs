@@ -1,25 +1,32 @@
-//! `moire study SCENE --out DIR`: measures error against time. All invalid input is refused before
+//! `moire study SCENE`: measures error against time. All invalid input is refused before
 //! the device starts. Ctrl-C leaves a folder from which the same command resumes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use super::outputs::folder_or_default;
 use super::overrides::parse_size;
 use super::progress::Bar;
 use super::quantity::{positive, seconds};
+use super::{DEVICE, MEASURING, OUTPUT, REPORT, VIEW};
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::study::format::names;
 use crate::lab::study::method::Method;
 use crate::lab::study::record::{self, Question, Record};
-use crate::lab::study::{self, Options, ReferenceChoice, steadiness};
-use crate::output;
+use crate::lab::study::{self, Options, ReferenceChoice, reference, steadiness};
+use crate::output::OutputFolder;
 use crate::scene::prune::prune;
 use crate::scene::{MAX_SPP, Reading, Setting, is_standard_input, load_as};
 
-/// Measure which anti-aliasing method has the smallest error in a given time
+/// What the default name of the folder has behind the scene's.
+const FOLDER: &str = "study";
+/// Heading of the options that ask for a recommendation.
+const ASK: &str = "Ask for a recommendation";
+
+/// Measure which method has the smallest error in a given time
 ///
 /// Renders the scene with each method and sample count, compares every picture with a reference, and writes study.csv,
 /// study.json, three plots as SVG and index.html, a self-contained page. An interrupted study is resumed by the same
@@ -28,53 +35,67 @@ use crate::scene::{MAX_SPP, Reading, Setting, is_standard_input, load_as};
 pub struct StudyArgs {
     /// Scene file or model
     scene: PathBuf,
-    /// Camera of a glTF file, by its number from 0 or its name [default: the first]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    /// Camera of a glTF file: number from 0, or name [default: the first]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = VIEW)]
     camera: Option<String>,
-    /// Replace a value of the scene, such as sampler.ground.address=repeat. May be given several times
-    #[arg(long, value_name = "KEY=VALUE", value_parser = str::parse::<Setting>)]
+    /// Replace a value of the scene, such as camera.eye=[0,1,4]
+    ///
+    /// Any key of the scene format, as SECTION.KEY=VALUE or SECTION.ITEM.KEY=VALUE, such as
+    /// sampler.ground.address=repeat; ITEM is a name, a number from 0, or * for all. May be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = str::parse::<Setting>, help_heading = VIEW)]
     set: Vec<Setting>,
-    /// Folder for the results; its last component is created if it is missing
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
-    /// Methods, separated by commas: PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, such as
-    /// random,stratified,stratified+cone+ewa; best among them, or alone: those that a coarse pass finds promising
-    /// [default: all patterns, and filters if there are textures]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Listed::parse)]
+    /// Folder for the results [default: the scene's name with -study, in the current folder]
+    ///
+    /// Its last component is created if it is missing.
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    out: Option<PathBuf>,
+    /// best, halton+cone+ewa, … [default: all that suit the scene]
+    ///
+    /// Separated by commas: PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, with the names that `moire render`
+    /// has for them, as in random,stratified,stratified+cone+ewa; adaptive, beam and cone. best among them, or alone:
+    /// those that a coarse pass finds promising.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Listed::parse, help_heading = MEASURING)]
     methods: Vec<Listed>,
-    /// Recommend what errs least within this time of rendering, such as 50ms or 0.05 (seconds)
-    #[arg(long, value_name = "TIME", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "error")]
+    /// Recommend what errs least in this time, such as 50ms
+    ///
+    /// Of rendering; a number alone is seconds.
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_negative_numbers = true, conflicts_with = "error", help_heading = ASK)]
     budget: Option<f64>,
     /// Recommend what comes to this RMSE fastest
-    #[arg(long, value_name = "RMSE", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "RMSE", value_parser = positive, allow_negative_numbers = true, help_heading = ASK)]
     error: Option<f64>,
-    /// Samples per pixel, separated by commas, each rounded up to a number that the pattern supports
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,4,16,64,256", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
+    /// Samples per pixel
+    ///
+    /// Separated by commas, each rounded up to a number that the pattern supports.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,4,16,64,256", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)), help_heading = MEASURING)]
     spp: Vec<u32>,
-    /// Renders of each point, of which the median counts
-    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    /// Renders of each point; their median counts
+    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = MEASURING)]
     repeats: u32,
-    /// Picture size in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    /// Picture size in pixels, such as 640x480
+    #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = VIEW)]
     size: Option<[u32; 2]>,
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
-    /// [default: discrete GPU, else integrated, else CPU]
-    #[arg(long, value_name = "SEL")]
+    /// Device: index, part of its name, cpu or gpu [default: discrete GPU, else integrated, else CPU]
+    ///
+    /// `moire devices` lists them.
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Option<String>,
-    /// Reference: a picture file, or oracle [default: many samples on the device]
-    #[arg(long, value_name = "FILE|oracle")]
+    /// A picture file, or oracle [default: many samples on the device]
+    #[arg(long, value_name = "FILE|oracle", help_heading = MEASURING)]
     reference: Option<String>,
-    /// Time limit of the study, such as 90s, 10min or 600 (seconds); the longest points are left out if it does not suffice
-    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = seconds, allow_negative_numbers = true)]
+    /// Time limit of the study, such as 90s or 10min
+    ///
+    /// A number alone is seconds. The longest points are left out if it does not suffice.
+    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = seconds, allow_negative_numbers = true, help_heading = MEASURING)]
     seconds: f64,
     /// Print the content of study.json on stdout
-    #[arg(long)]
+    #[arg(long, help_heading = REPORT)]
     json: bool,
     /// Print nothing but errors
-    #[arg(short, long, conflicts_with = "verbose")]
+    #[arg(short, long, conflicts_with = "verbose", help_heading = REPORT)]
     quiet: bool,
     /// Print the winner of each time and what was left out
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = REPORT)]
     verbose: bool,
 }
 
@@ -116,9 +137,10 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     if let Some([width, height]) = args.size {
         (scene.width, scene.height) = (width, height);
     }
-    output::prepare_folder(&args.out, record::FILE)?;
+    let out = folder_or_default(args.out.as_deref(), &args.scene, FOLDER, &[record::FILE, reference::FILE])?;
+    let _folder = OutputFolder::prepare(&out, record::FILE)?;
     prune(&mut scene);
-    let options = options(args, started);
+    let options = options(args, &out, started);
     let gpu = Gpu::open(&select)?;
     let outcome = study::run(&gpu, &scene, &options, &bar);
     bar.finish();
@@ -127,23 +149,23 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     }
     match outcome {
         Err(Error::Interrupted) => {
-            let points = record::read(&args.out).points.len();
+            let points = record::read(&out).points.len();
             super::notify(format_args!(
                 "interrupted: {} {} in {}; the same command goes on from there",
                 counted(points, "point"),
                 verb(points, "is", "are"),
-                args.out.display()
+                out.display()
             ));
             Ok(ExitCode::from(130))
         }
         outcome => {
-            report(args, &outcome?)?;
+            report(args, &out, &outcome?)?;
             Ok(ExitCode::SUCCESS)
         }
     }
 }
 
-fn options(args: &StudyArgs, started: Instant) -> Options {
+fn options(args: &StudyArgs, out: &Path, started: Instant) -> Options {
     let mut methods: Vec<Method> = Vec::new();
     for listed in &args.methods {
         if let Listed::Method(method) = listed
@@ -176,12 +198,12 @@ fn options(args: &StudyArgs, started: Instant) -> Options {
         },
         limit: args.seconds,
         started,
-        out: args.out.clone(),
+        out: out.to_owned(),
         arguments,
     }
 }
 
-fn report(args: &StudyArgs, record: &Record) -> Result<()> {
+fn report(args: &StudyArgs, out: &Path, record: &Record) -> Result<()> {
     if args.json {
         let json = serde_json::to_string_pretty(record);
         super::print(&json.map_err(|e| Error::new(format!("the study as JSON: {e}")))?)?;
@@ -212,7 +234,7 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     }
     super::notify(format_args!(
         "{}: {}",
-        args.out.join("index.html").display(),
+        out.join("index.html").display(),
         counted(record.points.len(), "point")
     ));
     Ok(())

@@ -7,8 +7,8 @@ use std::process::ExitCode;
 
 use serde_json::{Value, json};
 
-use super::named_parser;
 use super::texture_levels::{Extra, Profile};
+use super::{interrupt, named_parser};
 use crate::core::counted::{counted, plural};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
@@ -21,26 +21,32 @@ use crate::texture::decode::texture_of;
 use crate::texture::read_file::{self, FileFacts, Picture};
 use crate::texture::source::{OrientationUse, ProfileUse, ReadOptions};
 
-/// Describe a texture file: size, format, range and mean, levels, non-finite texels, whether it tiles
+/// Describe a texture file, and whether it tiles
 ///
+/// Size, format, range and mean, levels, non-finite texels.
 /// An axis tiles if the step from the last texels to the first is as common as others inside, or an edge as the texture
 /// has inside, and if the texture's own period continues across it: yes, no, or perhaps.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
     /// PNG, JPEG, TIFF, TGA, HDR, EXR, WebP, DDS or KTX2
     pub file: PathBuf,
-    /// Write the texture repeated 2×2, looking like the file; alpha is left out
+    /// Picture of it, repeated 2×2
+    ///
+    /// It looks like the file; alpha is left out.
     #[arg(short, long, value_name = "OUT.png")]
     pub out: Option<PathBuf>,
-    /// Meaning of the stored values, as in a scene; srgb: range and mean are of linear values [default: what the file
-    /// says, else linear]
+    /// Meaning of the values [default: what the file says, else linear]
+    ///
+    /// As in a scene; with srgb, range and mean are of linear values.
     #[arg(long, value_name = "SPACE",
           value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
     pub color_space: Option<ColorSpace>,
     /// Layer, part or channel of an EXR file [default: the one without a name]
     #[arg(long, value_name = "NAME")]
     pub layer: Option<String>,
-    /// Apply the orientation that a file states (Exif, TIFF)
+    /// What becomes of an orientation (Exif)
+    ///
+    /// Apply it to the picture, or ignore it. TIFF files state one, too.
     #[arg(long, value_name = "USE", default_value = "apply",
           value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
     pub orientation: OrientationUse,
@@ -54,6 +60,7 @@ pub struct TextureArgs {
 }
 
 pub fn run(args: &TextureArgs) -> Result<ExitCode> {
+    interrupt::ends_at_once()?;
     if let Some(path) = &args.out {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;

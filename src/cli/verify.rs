@@ -16,8 +16,9 @@ use crate::lab::verify::{report::ConformanceReport, text::text, verify};
 /// precision.
 #[derive(clap::Args, Clone, Debug)]
 pub struct VerifyArgs {
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
-    /// [default: discrete GPU, else integrated, else CPU]
+    /// Device: index, part of its name, cpu or gpu [default: discrete GPU, else integrated, else CPU]
+    ///
+    /// `moire devices` lists them.
     #[arg(long, value_name = "SEL")]
     device: Option<String>,
     /// Only variants whose name contains TEXT, such as "3d" or "mip=linear"; --json names all

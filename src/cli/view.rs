@@ -7,14 +7,17 @@ use std::sync::Arc;
 
 use super::display::DisplayArgs;
 use super::overrides::Overrides;
-use super::{DEVICE, OUTPUT};
+use super::{DEVICE, REPORT};
 use crate::core::error::{Error, Result};
 use crate::gpu::DeviceSelect;
 use crate::lab::view::{Page, Settings, Source, Stop};
 use crate::render::On;
 use crate::scene::is_standard_input;
 
-/// Show a scene in a browser, refined while one looks, with two settings side by side
+/// Heading of the options of the server.
+const SERVE: &str = "Serve the page";
+
+/// Show a scene in a browser, refined while one looks
 ///
 /// Prints the address of a page that only this machine can open, and serves it until Ctrl-C. The page shows the picture
 /// as it refines, menus for all options, two settings with a wipe between them, what single pixels are made of, error
@@ -24,18 +27,19 @@ pub struct ViewArgs {
     /// Scene file or model
     scene: PathBuf,
     /// Port of 127.0.0.1 at which the page is served [default: a free one]
-    #[arg(long, value_name = "PORT", default_value = "0", hide_default_value = true, help_heading = OUTPUT)]
+    #[arg(long, value_name = "PORT", default_value = "0", hide_default_value = true, help_heading = SERVE)]
     port: u16,
     #[command(flatten)]
     overrides: Overrides,
     #[command(flatten)]
     display: DisplayArgs,
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU)
-    /// [default: discrete GPU, else integrated, else CPU]
+    /// Device: index, part of its name, cpu, gpu or oracle [default: discrete GPU, else integrated, else CPU]
+    ///
+    /// `moire devices` lists them; oracle is float64 on the CPU.
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Option<String>,
     /// Print nothing but the address and errors
-    #[arg(short, long, help_heading = OUTPUT)]
+    #[arg(short, long, help_heading = REPORT)]
     quiet: bool,
 }
 

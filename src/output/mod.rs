@@ -1,6 +1,6 @@
 //! Writes a finished film to a picture file whose extension names the format. The file appears
 //! complete or not at all: it is written beside its final path and renamed. Folders are created by
-//! `prepare_folder` only.
+//! `OutputFolder` only.
 
 mod adaptation;
 mod bands;
@@ -21,6 +21,7 @@ mod sink;
 mod target;
 mod tiff;
 mod tone_map;
+mod unfinished;
 
 use std::path::Path;
 
@@ -31,11 +32,12 @@ use crate::core::panics;
 pub use adaptation::{KELVINS, parse_kelvin, white_of};
 pub use display::{DisplayTransform, STOPS, parse_stops};
 pub use encode::Format;
-pub use folder::prepare_folder;
+pub use folder::OutputFolder;
 pub use gamut::Gamut;
 pub use quantise::srgb8;
 use target::Target;
 pub use tone_map::ToneMap;
+pub use unfinished::discard_and_end;
 
 /// Every extension that names a format.
 pub const ENDINGS: [(&str, Format); 7] = [

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::sink::Sink;
+use super::unfinished::{self, Unfinished};
 use crate::core::error::{Error, Result};
 
 /// The buffer gathers small writes, as of heads and chunks; bands of rows pass it by.
@@ -20,6 +21,8 @@ pub struct Target {
     /// The path with symbolic links resolved, so that a link stays a link.
     destination: PathBuf,
     file: BufWriter<NamedTempFile>,
+    /// Behind the file, which it outlives.
+    _unfinished: Unfinished,
 }
 
 impl Target {
@@ -27,13 +30,19 @@ impl Target {
         let destination = check_destination(path)?;
         let folder = destination.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         check_folder(path, folder)?;
-        let file = new_file(folder).map_err(|e| {
-            Error::with_help(
-                format!("{}: the folder {} is not writable: {e}", path.display(), folder.display()),
-                "choose a folder where files can be created",
-            )
-        })?;
-        Ok(Target { path: path.to_path_buf(), destination, file: BufWriter::with_capacity(BUFFER, file) })
+        let (file, unfinished) =
+            unfinished::create(|| new_file(folder), NamedTempFile::path).map_err(|e| {
+                Error::with_help(
+                    format!("{}: the folder {} is not writable: {e}", path.display(), folder.display()),
+                    "choose a folder where files can be created",
+                )
+            })?;
+        Ok(Target {
+            path: path.to_path_buf(),
+            destination,
+            file: BufWriter::with_capacity(BUFFER, file),
+            _unfinished: unfinished,
+        })
     }
 
     pub fn writer(&mut self) -> &mut dyn Sink {

@@ -350,14 +350,16 @@ fn help_and_version_are_answers_on_stdout() {
 
 #[test]
 fn help_names_each_value_once_and_groups_the_options() {
-    let output = moire().args(["render", "--help"]).output().unwrap();
-    let help = text(&output.stdout);
-    // Words of one vocabulary only.
-    for value in ["multi-jittered", "summed-area", "differentials", "blackman-harris", "buffer"] {
-        assert_eq!(help.matches(value).count(), 1, "{value} in: {help}");
-    }
-    for group in ["Output:", "Sampling:", "Textures:", "Device:", "Measuring:"] {
-        assert_eq!(help.lines().filter(|line| *line == group).count(), 1, "{group} in: {help}");
+    for form in ["-h", "--help"] {
+        let output = moire().args(["render", form]).output().unwrap();
+        let help = text(&output.stdout);
+        // Words of one vocabulary only.
+        for value in ["multi-jittered", "summed-area", "differentials", "blackman-harris", "buffer"] {
+            assert_eq!(help.matches(value).count(), 1, "{value} in: {help}");
+        }
+        for group in ["Write files:", "Take samples:", "Filter textures:", "Choose devices:", "Measure:"] {
+            assert_eq!(help.lines().filter(|line| *line == group).count(), 1, "{group} in: {help}");
+        }
     }
 }
 

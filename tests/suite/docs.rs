@@ -3,7 +3,7 @@
 //! `MOIRE_UPDATE_DOCS=1` rewrites what is generated in them and still fails: read the change, then test again.
 
 mod architecture;
-mod cli;
+pub mod cli;
 mod commands;
 mod examples;
 mod formulas;

@@ -44,6 +44,8 @@ mod gallery;
 mod golden;
 mod halves;
 #[cfg(unix)]
+mod help;
+#[cfg(unix)]
 mod interrupt;
 mod layering;
 mod layers;

@@ -8,6 +8,7 @@ use moire::internal::output::{ENDING_NAMES, ToneMap};
 use moire::internal::scene::model::Pattern;
 use moire::internal::texture::sampler_spec::Filter;
 
+use crate::docs::cli::{command_names, help};
 use crate::support::{moire, untested};
 
 fn printed(arguments: &[&str]) -> String {
@@ -69,15 +70,6 @@ fn each_shell_has_a_script_that_knows_commands_and_words() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// Returns the commands that the help lists.
-fn commands() -> Vec<String> {
-    let help = printed(&["--help"]);
-    let list = help.split_once("Commands:\n").unwrap().1;
-    let names =
-        list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(String::from).collect()
-}
-
 /// Lets groff format a page; without it, looks at the page's structure.
 fn check(page: &str, name: &str) {
     for part in [".TH ", ".SH NAME", ".SH SYNOPSIS", ".SH DESCRIPTION"] {
@@ -102,7 +94,8 @@ fn the_manual_has_a_page_for_each_command() {
     let folder = tempfile::tempdir().unwrap();
     let pages = folder.path().join("man");
     printed(&["man", "--out", pages.to_str().unwrap()]);
-    let mut wanted: Vec<String> = commands().iter().map(|name| format!("moire-{name}.1")).collect();
+    let mut wanted: Vec<String> =
+        command_names(&help(&[])).iter().map(|name| format!("moire-{name}.1")).collect();
     wanted.push("moire.1".into());
     wanted.sort();
     let mut found: Vec<String> =
@@ -137,18 +130,4 @@ fn the_long_version_says_what_was_built_and_the_short_one_is_a_line() {
     let commit = value("commit").split(',').next().unwrap();
     let is_commit = commit.len() == 12 && commit.bytes().all(|b| b.is_ascii_hexdigit());
     assert!(is_commit || commit == "unknown", "{commit}");
-}
-
-/// Help is wrapped at 100 columns, so that it is read in a window of that width.
-#[test]
-fn help_fits_a_screen_group_by_group() {
-    for command in commands() {
-        let help = printed(&[&command, "--help"]);
-        for line in help.lines() {
-            assert!(line.chars().count() <= 100, "{command}: {line}");
-        }
-        for group in help.split("\n\n") {
-            assert!(group.lines().count() <= 40, "{command}: {group}");
-        }
-    }
 }

@@ -15,6 +15,7 @@ mod text;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::interrupt;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::named::named_enum;
 use crate::lab::study::quote;
@@ -39,7 +40,7 @@ named_enum! {
     }
 }
 
-/// Write a short scene that renders at once, of your pictures or model, or a copy of a scene of the program
+/// Write a scene of your pictures or model, or copy one
 ///
 /// Pictures are looked at: color space, orientation, alpha, whether their borders fit together, and what they are by the
 /// usual names of an artist's set (albedo, normal, roughness, …). Comments of the scene say what was chosen and why.
@@ -67,6 +68,7 @@ pub struct NewArgs {
 }
 
 pub fn run(args: &NewArgs) -> Result<ExitCode> {
+    interrupt::ends_at_once()?;
     if args.list {
         return list();
     }

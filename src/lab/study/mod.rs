@@ -25,7 +25,7 @@ pub mod pictures;
 pub mod plan;
 pub mod question;
 pub mod record;
-mod reference;
+pub mod reference;
 pub mod refine;
 pub mod results;
 mod session_cache;

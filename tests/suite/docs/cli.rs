@@ -15,12 +15,11 @@ pub fn help(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Returns the commands that the help lists.
+/// Returns the commands that the help lists, in groups.
 pub fn command_names(help: &str) -> Vec<String> {
-    let list = help.split_once("Commands:\n").map_or("", |(_, rest)| rest);
-    let lines = list.lines().take_while(|line| !line.is_empty());
-    let names = lines.filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(String::from).collect()
+    let listed = help.lines().filter_map(|line| line.strip_prefix("  "));
+    let listed = listed.filter(|line| line.starts_with(|c: char| c.is_ascii_lowercase()));
+    listed.filter_map(|line| line.split_whitespace().next()).map(String::from).collect()
 }
 
 /// Returns each option and argument with all that the help says of it, in one line.
@@ -34,10 +33,12 @@ pub fn entries(help: &str) -> Vec<String> {
         } else if indent > 6
             && let Some(entry) = found.last_mut()
         {
-            *entry += &format!(" {text}");
+            // The first line of the description is as far from the option as in the short help.
+            *entry += if entry.contains("  ") { " " } else { "  " };
+            *entry += text;
         }
     }
-    found.retain(|entry| !entry.contains("--help") && !entry.contains("--version"));
+    found.retain(|entry| !entry.contains("-h, --help") && !entry.contains("-V, --version"));
     found
 }
 
@@ -74,8 +75,12 @@ fn every_command_and_option_stands_in_the_reference() {
 
 #[test]
 fn help_is_read_as_it_is_printed() {
-    let help = "Usage: x [OPTIONS] <A>\n\nArguments:\n  <A>  First\n\nOptions:\n  -o, --out <OUT>  Where, see\n                   below [default: 8] [possible values: 8, 16]\n      --json       As JSON\n  -h, --help       Print help\n";
-    let rows: Vec<Vec<String>> = entries(help).iter().map(|entry| row(entry)).collect();
+    let short = "Usage: x [OPTIONS] <A>\n\nArguments:\n  <A>  First\n\nOptions:\n  -o, --out <OUT>  Where, see\n                   below [default: 8] [possible values: 8, 16]\n      --json       As JSON\n  -h, --help       Print help\n";
+    let long = "Usage: x [OPTIONS] <A>\n\nArguments:\n  <A>\n          First\n\nOptions:\n  -o, --out <OUT>\n          Where\n          \n          [possible values: 8,\n          16]\n          \n          [default: 8]\n\n      --json\n          As JSON\n\n  -h, --help\n          Print help\n";
     let wanted = [["`A`", "", ""], ["`-o, --out OUT`", "`8`, `16`", "8"], ["`--json`", "", ""]];
-    assert_eq!(rows, wanted.map(|row| row.map(String::from).to_vec()));
+    for help in [short, long] {
+        let rows: Vec<Vec<String>> = entries(help).iter().map(|entry| row(entry)).collect();
+        assert_eq!(rows, wanted.map(|row| row.map(String::from).to_vec()));
+    }
+    assert_eq!(command_names("Usage: x\n\nA:\n  ab  Does\nB:\n  c   Does\n\nx COMMAND\n"), ["ab", "c"]);
 }
