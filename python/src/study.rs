@@ -8,7 +8,7 @@ use moire::internal::gpu::{DeviceSelect, Gpu};
 use moire::internal::lab::study::method::Method;
 use moire::internal::lab::study::record::{self, Question};
 use moire::internal::lab::study::{self as lab, Options, ReferenceChoice};
-use moire::internal::output::{prepare_folder, write_file};
+use moire::internal::output::{OutputFolder, write_file};
 use moire::internal::scene::MAX_SPP;
 use moire::internal::scene::prune::prune;
 use moire::{Error, ErrorKind, Result};
@@ -79,7 +79,7 @@ pub fn study<'py>(
     };
     prune(&mut changed);
     let found = watched(py, "a study", progress, |progress| {
-        prepare_folder(&options.out, record::FILE)?;
+        let _folder = OutputFolder::prepare(&options.out, record::FILE)?;
         if let Some(text) = text {
             changed.path = options.out.join(SCENE_FILE);
             write_file(&changed.path, text.as_bytes())?;

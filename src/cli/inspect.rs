@@ -19,7 +19,7 @@ use crate::scene::prune::prune;
 /// What the default name of the folder has behind the scene's.
 const FOLDER: &str = "inspect";
 
-/// Show what a view needs of its textures, and which settings suit it
+/// Show what a view needs of its textures, and settings for it
 ///
 /// Writes every layer of `moire render --aov` as a false-colour picture, layers.exr with all of them as numbers, and
 /// index.html, which says for each texture how densely it is seen, which levels and texels are read, whether it is larger

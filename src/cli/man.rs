@@ -46,7 +46,7 @@ fn page(command: &Command) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let page = Man::new(command.clone()).source(SOURCE).render(&mut bytes);
     page.map_err(|error| Error::new(format!("the manual: {error}")))?;
-    Ok(plain(&String::from_utf8_lossy(&bytes)).into_bytes())
+    Ok(tidy(&plain(&String::from_utf8_lossy(&bytes))).into_bytes())
 }
 
 /// Returns a text of roff in ASCII: some formatters take other bytes for Latin-1.
@@ -60,4 +60,14 @@ fn plain(text: &str) -> String {
         }
     }
     plain
+}
+
+/// Returns a page whose title has an empty date in its place, which the source would take otherwise, and blank lines as
+/// requests.
+fn tidy(page: &str) -> String {
+    let titled = page.lines().map(|line| match line.strip_prefix(".TH ") {
+        Some(title) => format!(".TH {}\n", title.replacen(" 1  \"", " 1 \"\" \"", 1).trim_end()),
+        None => format!("{line}\n"),
+    });
+    titled.collect::<String>().replace("\n.br\n\n.br\n", "\n.sp\n")
 }

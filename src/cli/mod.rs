@@ -34,20 +34,17 @@ pub mod verify;
 pub mod version;
 pub mod view;
 mod watch;
+mod words;
 
-use std::ffi::OsStr;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, StyledStr, TypedValueParser};
-use clap::error::{ContextKind, ContextValue};
-
 use crate::core::error::{Error, Result};
 use crate::core::panics;
 use crate::gpu;
-use crate::scene::synonyms::meant;
+use words::named_parser;
 
 /// Headings of option groups in the help: what a person wants to do.
 const VIEW: &str = "Choose what is seen";
@@ -133,49 +130,4 @@ fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
         format!("{}: this is {what}, which the picture would replace", output.display()),
         "choose another name for the picture with -o",
     ))
-}
-
-/// Returns a value parser of a vocabulary: clap lists the names and suggests the most similar one,
-/// or the one known under the given word in other programs.
-fn named_parser<T: Clone + Send + Sync + 'static>(
-    names: &'static [&'static str],
-    from_name: fn(&str) -> Option<T>,
-) -> Named<T> {
-    Named { names, from_name }
-}
-
-#[derive(Clone)]
-struct Named<T> {
-    names: &'static [&'static str],
-    from_name: fn(&str) -> Option<T>,
-}
-
-impl<T: Clone + Send + Sync + 'static> TypedValueParser for Named<T> {
-    type Value = T;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        arg: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> std::result::Result<T, clap::Error> {
-        let name =
-            PossibleValuesParser::new(self.names).parse_ref(command, arg, value).map_err(|mut error| {
-                if let Some((name, also)) =
-                    value.to_str().and_then(|word| meant(word, self.names.iter().copied()))
-                {
-                    error.insert(ContextKind::SuggestedValue, ContextValue::String(name.into()));
-                    if let Some((key, value)) = also {
-                        let tip = StyledStr::from(format!("with it goes '--{key} {value}'"));
-                        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
-                    }
-                }
-                error
-            })?;
-        (self.from_name)(&name).ok_or_else(|| clap::Error::new(clap::error::ErrorKind::InvalidValue))
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(self.names.iter().map(PossibleValue::new)))
-    }
 }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::output::{self, ENDING_NAMES, Format, Named, WriteOptions};
-use crate::scene::{BuiltIn, is_standard_input};
+use crate::scene::{BuiltIn, is_standard_input, suggestion};
 
 /// The name in messages.
 const STANDARD_OUTPUT: &str = "standard output";
@@ -150,4 +150,15 @@ pub fn name_of(scene: &Path) -> OsString {
         None => scene.file_stem(),
     };
     stem.unwrap_or("scene".as_ref()).to_owned()
+}
+
+/// Returns an error unless a reference is `word` or a file that exists.
+pub fn check_reference(reference: Option<&str>, word: &str) -> Result<()> {
+    match reference {
+        Some(named) if named != word && !Path::new(named).exists() => Err(Error::with_help(
+            format!("--reference {named}: there is no such file{}", suggestion(named, [word])),
+            format!("name a picture, or {word}; left out, the reference is rendered"),
+        )),
+        _ => Ok(()),
+    }
 }

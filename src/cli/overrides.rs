@@ -85,7 +85,7 @@ pub struct Overrides {
     #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true, help_heading = PIXELS)]
     pixel_filter_radius: Option<f64>,
     /// All pixels share their displacements
-    #[arg(long, value_name = "BOOL", help_heading = SAMPLING)]
+    #[arg(long, value_name = "BOOL", value_parser = named_parser(&["true", "false"], |word| word.parse::<bool>().ok()), help_heading = SAMPLING)]
     shared: Option<bool>,
 }
 

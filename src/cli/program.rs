@@ -9,7 +9,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::{
     compare, completions, devices, help, inspect, man, new, pattern, render, sheet, stability, study,
-    texture, verify, version, view,
+    texture, verify, version, view, words,
 };
 use crate::core::error::Result;
 use crate::core::panics;
@@ -56,11 +56,21 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     super::prepare_process();
     panics::record();
     super::exit_code(panics::contain(&"moire", || {
-        let matches = help::arrange(command_line()).get_matches_from(arguments);
+        let matches = matches(arguments.into_iter().collect());
         let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
         let own = matches.subcommand().map(|(_, own)| own);
         panics::contain(&format_args!("moire {}", command.name()), || command.run(own.unwrap_or(&matches)))
     }))
+}
+
+/// Parses the arguments. Answers and errors of the parser end the program.
+fn matches(arguments: Vec<OsString>) -> ArgMatches {
+    let command = help::arrange(command_line());
+    command.clone().try_get_matches_from(&arguments).unwrap_or_else(|error| {
+        let words: Vec<String> =
+            arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+        words::advised(error, &command, &words).exit()
+    })
 }
 
 impl Command {

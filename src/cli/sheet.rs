@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::display::DisplayArgs;
-use super::outputs::{check_distinct, name_of};
+use super::outputs::{check_distinct, check_reference, name_of};
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::render::check_inputs_kept;
@@ -122,6 +122,7 @@ pub fn run(args: &SheetArgs) -> Result<ExitCode> {
         Some(text) => DeviceSelect::parse(text)?,
         None => DeviceSelect::Default,
     };
+    check_reference(args.reference.as_deref(), "none")?;
     let outputs = outputs(args)?;
     let (plan, warnings) = plan(args)?;
     plan.check()?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use super::outputs::folder_or_default;
+use super::outputs::{check_reference, folder_or_default};
 use super::overrides::parse_size;
 use super::progress::Bar;
 use super::quantity::{positive, seconds};
@@ -121,6 +121,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
             "write the scene to a file first",
         ));
     }
+    check_reference(args.reference.as_deref(), "oracle")?;
     let bar = Bar::new(args.quiet)?;
     let select = match args.device.as_deref() {
         Some("oracle") => {
@@ -150,6 +151,9 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     match outcome {
         Err(Error::Interrupted) => {
             let points = record::read(&out).points.len();
+            if points == 0 && !out.join(reference::FILE).is_file() {
+                return Err(Error::Interrupted);
+            }
             super::notify(format_args!(
                 "interrupted: {} {} in {}; the same command goes on from there",
                 counted(points, "point"),

@@ -118,7 +118,9 @@ fn listing(devices: &[DeviceInfo]) -> String {
         Err(reason) => format!("{} {} ({}, not usable: {reason})", d.index, d.name, d.kind),
     };
     let lines: Vec<String> = devices.iter().map(line).collect();
-    format!("Devices here: {}", if lines.is_empty() { "none".into() } else { lines.join("; ") })
+    let words = WORDS.map(|word| word.word).join(", ");
+    let listed = if lines.is_empty() { "none".into() } else { lines.join("; ") };
+    format!("Devices here: {listed}. A device is an index, a part of a name, {words}")
 }
 
 #[cfg(test)]

@@ -22,15 +22,24 @@ pub(super) fn quoted(name: &str) -> String {
 /// Returns `; did you mean "x"?` for the candidate that `word` is a synonym or the most likely misspelling of, or
 /// nothing.
 pub fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str> + Clone) -> String {
-    let word = word.to_lowercase();
-    if let Some((name, also)) = meant(&word, candidates.clone()) {
+    nearest(word, candidates).map_or_else(String::new, |(name, also)| {
         let also = also.map_or(String::new(), |(key, value)| format!(" with {key} = \"{value}\""));
-        return format!("; did you mean {}{also}?", quoted(name));
-    }
-    let near =
-        candidates.into_iter().filter_map(|candidate| Some((unlikeness(&word, candidate)?, candidate)));
-    let best = near.min_by_key(|(unlikeness, _)| *unlikeness);
-    best.map_or_else(String::new, |(_, candidate)| format!("; did you mean {}?", quoted(candidate)))
+        format!("; did you mean {}{also}?", quoted(name))
+    })
+}
+
+/// Returns the candidate that `word` is a synonym or the most likely misspelling of, with a setting that the synonym implies.
+pub fn nearest<'c>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'c str> + Clone,
+) -> Option<(&'c str, Option<(&'static str, &'static str)>)> {
+    let word = word.to_lowercase();
+    let by_meaning = meant(&word, candidates.clone());
+    by_meaning.or_else(|| {
+        let near =
+            candidates.into_iter().filter_map(|candidate| Some((unlikeness(&word, candidate)?, candidate)));
+        near.min_by_key(|(unlikeness, _)| *unlikeness).map(|(_, candidate)| (candidate, None))
+    })
 }
 
 /// Returns a measure of the difference; `None` for unrelated words. Misspellings (by edit distance) come before words

@@ -370,11 +370,45 @@ fn words_of_other_programs_are_answered_with_those_of_this_one() {
         (["--filter", "bilinear"], "'linear'"),
         (["--filter", "trilinear"], "--mip linear"),
         (["--pixel-filter", "triangle"], "'tent'"),
+        (["--pattern", "poisson-disk"], "'blue-noise'"),
+        (["--algorithm", "ssaa"], "'samples'"),
+        (["--algorithm", "fxaa"], "smooths finished pictures"),
+        (["--filter", "mipmap"], "--mip linear"),
+        (["--filter", "gaussian"], "'ewa'"),
+        (["--tone-map", "hable"], "'filmic'"),
+        (["--gamut", "p3"], "'display-p3'"),
+        (["--gamut", "acescg"], "display-p3 writes"),
+        (["--precision", "f64"], "'double'"),
+        (["--estimates", "gpu"], "'device'"),
+        (["--shared", "yes"], "'true'"),
+        (["--aov", "depth,z"], "'depth'"),
+        (["--samples", "4"], "'--spp'"),
+        (["--resolution", "4x4"], "'--size'"),
         (["--pattern", "stratfied"], "'stratified'"),
     ] {
         let output = moire().args(["render", "x.toml"]).args(options).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         assert!(text(&output.stderr).contains(wanted), "{options:?}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn commands_and_methods_of_other_names_are_answered_with_those_of_this_program() {
+    let cases: [(&[&str], &str); 9] = [
+        (&["diff"], "'compare'"),
+        (&["texure"], "'texture'"),
+        (&["new", "sphere"], "\"ball\""),
+        (&["compare", "a", "b", "--rmse", "1"], "'--max-rmse'"),
+        (&["study", "x.toml", "--methods", "ewa"], "did you mean stratified+cone+ewa?"),
+        (&["study", "x.toml", "--methods", "stratifed+cone"], "did you mean stratified?"),
+        (&["study", "x.toml", "--methods", "random+cone+trilinear"], "did you mean stratified+cone+linear?"),
+        (&["study", "x.toml", "--reference", "oracl"], "did you mean \"oracle\"?"),
+        (&["texture", "x.png", "--color-space", "sRGB"], "'srgb'"),
+    ];
+    for (arguments, wanted) in cases {
+        let output = moire().args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(wanted), "{arguments:?}: {}", text(&output.stderr));
     }
 }
 

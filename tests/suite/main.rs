@@ -39,6 +39,8 @@ mod exr;
 mod extremes;
 mod face;
 mod flip;
+#[cfg(unix)]
+mod folders;
 mod footprints;
 mod gallery;
 mod golden;

@@ -48,6 +48,16 @@ fn bash_completes_commands_options_and_words() {
 }
 
 #[test]
+fn bash_completes_scenes_keys_lists_and_words_behind_a_sign() {
+    assert_eq!(completed(&["moire", "render", "@lec"]), ["@lecture"]);
+    assert_eq!(completed(&["moire", "render", "--set", "camera.ey"]), ["camera.eye="]);
+    assert_eq!(completed(&["moire", "render", "--set", "sampler.*.fi"]), ["sampler.*.filter="]);
+    assert_eq!(completed(&["moire", "render", "--aov", "level,de"]), ["level,depth"]);
+    // Bash takes the sign for a word of its own.
+    assert_eq!(completed(&["moire", "render", "--filter", "=", "ew"]), ["ewa"]);
+}
+
+#[test]
 fn each_shell_has_a_script_that_knows_commands_and_words() {
     for (shell, sign) in [
         ("bash", "complete -F"),
@@ -63,7 +73,9 @@ fn each_shell_has_a_script_that_knows_commands_and_words() {
         }
         // Their generators list no values.
         if !["powershell", "elvish"].contains(&shell) {
-            assert!(script.contains("aces-narkowicz"), "{shell}");
+            for word in ["aces-narkowicz", "@lecture", "camera.eye"] {
+                assert!(script.contains(word), "{shell}: {word}");
+            }
         }
     }
     let output = moire().args(["completions", "tcsh"]).output().unwrap();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Kind, NewArgs};
 use crate::core::error::{Error, Result};
-use crate::scene::is_model;
+use crate::scene::{is_model, suggestion};
 use crate::texture::formats;
 
 /// In the name of a file it stands for the numbers of tiles.
@@ -68,7 +68,8 @@ fn kind_of(word: &Path) -> Option<Kind> {
 }
 
 fn unknown(word: &Path) -> Error {
-    let what = format!("{}: expected one of {}", word.display(), Kind::NAMES.join(", "));
+    let near = suggestion(&word.to_string_lossy(), Kind::NAMES.iter().copied());
+    let what = format!("{}: expected one of {}{near}", word.display(), Kind::NAMES.join(", "));
     let help = "a scene of the program begins with @, such as @lecture; name a picture with -t";
     Error::with_help(what, help)
 }

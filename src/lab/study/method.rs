@@ -6,8 +6,8 @@
 use crate::core::error::{Error, Result};
 use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use crate::scene::synonyms::meant;
-use crate::scene::{check_filters, check_shared, check_spp};
+use crate::scene::synonyms::absent;
+use crate::scene::{check_filters, check_shared, check_spp, nearest};
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::label;
@@ -215,15 +215,34 @@ fn filtered(scene: &Scene, notes: &mut Vec<String>) -> Vec<Method> {
 
 fn unknown(word: &str) -> String {
     let list = |names: &[&str]| names.join(", ");
-    let near = [Algorithm::NAMES, Pattern::NAMES, Footprint::NAMES, Filter::NAMES]
-        .into_iter()
-        .find_map(|names| meant(word, names.iter().copied()));
     format!(
-        "\"{word}\" has no meaning there: a method is PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, \
-         with an algorithm before it or alone; patterns: {}; footprints: {}; filters: {}; algorithms: {}",
+        "\"{word}\" has no meaning there{} A method is PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, \
+         with an algorithm before it or alone, or best; patterns: {}; footprints: {}; filters: {}; algorithms: {}",
+        likely(word),
         list(Pattern::NAMES),
         list(Footprint::NAMES),
         list(Filter::NAMES),
         list(Algorithm::NAMES)
-    ) + &near.map_or(String::new(), |(name, _)| format!("; did you mean {name}?"))
+    )
+}
+
+/// Returns a question for the method that a word most likely means. Footprints and filters stand behind a pattern.
+fn likely(word: &str) -> String {
+    let near = |names: &[&'static str]| nearest(word, names.iter().copied()).map(|(name, _)| name);
+    let behind = |pattern: &str, name: &str| format!("{pattern}+{name}");
+    let found = if Filter::NAMES.contains(&word) {
+        Some(behind("stratified+cone", word))
+    } else if Footprint::NAMES.contains(&word) {
+        Some(behind("stratified", word))
+    } else {
+        let whole = near(&["best"]).or_else(|| near(Pattern::NAMES)).or_else(|| near(Algorithm::NAMES));
+        let filter = || near(Filter::NAMES).map(|name| behind("stratified+cone", name));
+        let footprint = || near(Footprint::NAMES).map(|name| behind("stratified", name));
+        whole.map(String::from).or_else(filter).or_else(footprint)
+    };
+    match (found, absent(word)) {
+        (Some(name), _) => format!("; did you mean {name}?"),
+        (None, Some(instead)) => format!("; {instead}."),
+        (None, None) => ".".into(),
+    }
 }

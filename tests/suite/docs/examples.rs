@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::cli::{command_names, entries, help};
 use super::commands::commands;
-use super::pages;
+use super::{Page, pages, spans};
 
 /// Returns the names of an option: `-o` and `--output` of `-o, --output <OUT>`.
 fn names(entry: &str) -> Vec<String> {
@@ -55,6 +55,66 @@ fn every_option_has_an_example() {
     let lines: Vec<String> = pages.iter().flat_map(|page| commands(&page.text)).collect();
     let missing = without_example(&options.collect(), &lines);
     assert!(missing.is_empty(), "no command of README.md or docs has:\n{}", missing.join("\n"));
+}
+
+/// Returns true if a row of a table, beside those that list values, has the value, or a command gives it to the option.
+fn is_shown(option: &str, value: &str, pages: &[Page], lines: &[String]) -> bool {
+    let lists = ["docs/cli.md", "docs/scene-format.md"];
+    let told =
+        pages.iter().filter(|page| !lists.contains(&page.name.as_str())).flat_map(|page| page.text.lines());
+    let in_table = told.filter(|line| line.starts_with('|')).any(|row| spans(row).any(|span| span == value));
+    let is_named =
+        |word: &str| word.split(',').any(|part| part == value || part.ends_with(&format!(".{value}")));
+    let given = |line: &String| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let behind = words.windows(2).any(|pair| pair[0] == option && is_named(pair[1]));
+        behind || words.iter().any(|word| word.strip_prefix(&format!("{option}=")).is_some_and(is_named))
+    };
+    // The argument of `moire completions` has no name; the ending of `-o` is the format that `--format` names.
+    let bare = |line: &String| option.starts_with('<') && line.split_whitespace().any(|word| word == value);
+    let ending = |line: &String| {
+        option == "--format" && line.split_whitespace().any(|word| word.ends_with(&format!(".{value}")))
+    };
+    in_table || lines.iter().any(|line| given(line) || bare(line) || ending(line))
+}
+
+#[test]
+fn every_value_of_an_option_is_explained_or_has_an_example() {
+    let pages = pages();
+    if pages.is_empty() {
+        return;
+    }
+    let lines: Vec<String> = pages.iter().flat_map(|page| commands(&page.text)).collect();
+    let mut missing = BTreeSet::new();
+    for command in command_names(&help(&[])) {
+        for entry in entries(&help(&[&command])) {
+            let Some(list) =
+                entry.split_once("[possible values: ").and_then(|(_, rest)| rest.split(']').next())
+            else {
+                continue;
+            };
+            let mut words = entry.split_whitespace();
+            let option = words.clone().find(|word| word.starts_with("--")).or(words.next()).unwrap_or("");
+            let hidden = list.split(", ").filter(|value| !is_shown(option, value, &pages, &lines));
+            missing.extend(hidden.map(|value| format!("{option} {value}")));
+        }
+    }
+    assert!(missing.is_empty(), "no table or command of the docs has: {missing:?}");
+}
+
+#[test]
+fn a_value_without_table_or_example_is_found() {
+    let page = |name: &str, text: &str| Page { name: name.into(), text: text.into() };
+    let pages = [
+        page("docs/cli.md", "| `--mip M` | `none` |"),
+        page("docs/a.md", "| `linear` | between |\nthe `stored` one"),
+    ];
+    let lines =
+        ["moire render a --mip nearest".to_owned(), "moire render a --aov uv,level -o b.exr".to_owned()];
+    let shown = |option: &str, value: &str| is_shown(option, value, &pages, &lines);
+    assert!(shown("--mip", "linear") && shown("--mip", "nearest") && shown("--aov", "level"));
+    assert!(shown("--format", "exr") && !shown("--format", "png"));
+    assert!(!shown("--mip", "none") && !shown("--mip", "stored") && !shown("--filter", "nearest"));
 }
 
 #[test]

@@ -8,6 +8,7 @@ use glam::{DAffine3, DVec3};
 use crate::core::counted::counted;
 use crate::mesh::gltf::{self, LightKind, Model};
 use crate::scene::model::{self, Light, Projection};
+use crate::scene::suggestion::suggestion;
 
 /// A camera, and the ratio of width to height that it asks for.
 pub(in crate::scene::formats) type View = (model::Camera, f64);
@@ -33,8 +34,9 @@ pub(in crate::scene::formats) fn camera(
             Err(format!("several cameras are named {chosen:?}; it has {}", listed(&cameras)))
         }
         (None, _) => Err(format!(
-            "expected the number or the name of a camera, found {chosen:?}; it has {}",
-            listed(&cameras)
+            "expected the number or the name of a camera, found {chosen:?}; it has {}{}",
+            listed(&cameras),
+            suggestion(chosen, cameras.iter().map(|(_, name)| *name))
         )),
     }
 }

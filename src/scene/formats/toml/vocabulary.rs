@@ -60,3 +60,12 @@ pub(super) fn replaced_by(section: &str, key: &str) -> impl Iterator<Item = &'st
     let of_section = ALTERNATIVES.iter().filter(move |(name, keys)| *name == section && keys.contains(&key));
     of_section.flat_map(|(_, keys)| keys.iter().copied()).filter(move |other| *other != key)
 }
+
+/// Returns the keys that a setting of the command line can begin with: `camera.eye`, and of tables that may be several all
+/// at once, `sampler.*.filter`.
+pub fn setting_keys() -> impl Iterator<Item = String> {
+    let single = [("camera", CAMERA), ("image", IMAGE), ("sampling", SAMPLING), ("background", BACKGROUND)];
+    let several = [("sampler.*", SAMPLER), ("material.*", MATERIAL), ("texture.*", TEXTURE)];
+    let all = single.into_iter().chain(several);
+    all.flat_map(|(section, keys)| keys.iter().map(move |key| format!("{section}.{key}")))
+}
