@@ -7,6 +7,7 @@
 # points the crate shaderc-sys. Where they are missing or do not link, the crate builds shaderc from
 # source by itself (about 10 minutes; needs cmake, git and python3 too).
 # Quiet when nothing is missing. MOIRE_SETUP_DRY_RUN=1 prints what would be installed and stops.
+# MOIRE_SETUP_PYTHON=1 adds what the module of Python is built with.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 HOME=${HOME:-~} # of the user who runs this, where the environment has none
@@ -16,6 +17,7 @@ TEST_PACKAGES="vulkan-validationlayers"
 BUILD_PACKAGES="g++"
 ARCHIVE_PACKAGES="libshaderc-dev glslang-dev spirv-tools"
 SOURCE_PACKAGES="cmake git python3"
+PYTHON_PACKAGES="python3 python3-venv"
 MIN_CARGO="1.88"
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -114,6 +116,7 @@ merge_shaderc() {
 }
 
 check_cargo
+if [ "${MOIRE_SETUP_PYTHON:-0}" = 1 ]; then BUILD_PACKAGES="$BUILD_PACKAGES $PYTHON_PACKAGES"; fi
 if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
     # shellcheck disable=SC2086 # the lists are words on purpose
     missing=$(missing_of $RUN_PACKAGES $TEST_PACKAGES $BUILD_PACKAGES)

@@ -5,5 +5,5 @@ use std::process::ExitCode;
 use moire::internal::cli::program;
 
 fn main() -> ExitCode {
-    program::run(std::env::args_os())
+    program::run(std::env::args_os()).into()
 }

@@ -23,10 +23,20 @@ fn class_of(kind: ErrorKind) -> &'static str {
     }
 }
 
+/// Returns a text with the options of the program as Python writes them, unless it has a command.
+pub fn plain(text: &str) -> String {
+    if text.contains("moire ") {
+        return text.to_owned();
+    }
+    let word =
+        |word: &str| word.strip_prefix("--").map_or(word.to_owned(), |option| option.replace('-', "_"));
+    text.split_inclusive(' ').map(word).collect()
+}
+
 /// Returns the exception of an error.
 pub fn exception(py: Python<'_>, error: &Error) -> PyErr {
     let class = py.import(MODULE).and_then(|module| module.getattr(class_of(error.kind())));
-    match class.and_then(|class| class.call1((error.to_string(), error.help()))) {
+    match class.and_then(|class| class.call1((plain(&error.to_string()), error.help().map(plain)))) {
         Ok(value) => PyErr::from_value(value),
         Err(other) => other,
     }

@@ -1,6 +1,9 @@
 //! The options of a render. In: a dictionary by the names of the program's options, with `_` for `-`. Out: a scene as they
-//! change it, without what it has no use for, and the options beside it.
+//! change it, without what it has no use for, the options beside it, and both as words of a command line.
 
+use std::fmt::Display;
+
+use moire::internal::cli::quantity;
 use moire::internal::core::range::Rect;
 use moire::internal::integrators::adaptive::Goal;
 use moire::internal::render::Options;
@@ -53,6 +56,14 @@ impl<'py> Given<'_, 'py> {
         }
     }
 
+    /// Returns a time above 0: a number of seconds, or a text with a unit.
+    pub fn seconds(&self, key: &str) -> PyResult<Option<f64>> {
+        let text = self.0.get_item(key)?.and_then(|value| value.extract::<String>().ok());
+        let Some(text) = text else { return self.positive(key, f64::INFINITY) };
+        let told = |what| exception(self.0.py(), &Error::new(format!("{key}: found {text:?}: {what}")));
+        quantity::seconds(&text).map(Some).map_err(told)
+    }
+
     /// Returns the size of a picture.
     pub fn size(&self) -> PyResult<Option<[u32; 2]>> {
         let size = self.value::<[u32; 2]>("size", "(width, height)")?;
@@ -72,6 +83,11 @@ pub fn unknown(key: &str, name: &str, names: &[&'static str]) -> Error {
     Error::new(format!("{key}: {name:?} is not known{near}; known are {}", names.join(", ")))
 }
 
+/// Returns the options that are given as words of a command line.
+pub fn words(options: &[(&str, Option<String>)]) -> Vec<String> {
+    options.iter().filter_map(|(name, value)| Some(format!("--{name}={}", value.as_ref()?))).collect()
+}
+
 /// The options of a render, read.
 pub struct Wanted {
     changes: Changes,
@@ -84,7 +100,7 @@ impl Wanted {
         let py = given.py();
         let given = Given(given);
         let count = "a whole number of at least 0";
-        let budget = given.positive("budget", f64::INFINITY)?.map(Goal::Seconds);
+        let budget = given.seconds("budget")?.map(Goal::Seconds);
         let error = given.positive("target_error", f64::INFINITY)?.map(Goal::Error);
         if budget.is_some() && error.is_some() {
             let told = "budget and target_error are both given; a render ends at one of them";
@@ -115,6 +131,35 @@ impl Wanted {
             ..Options::default()
         };
         Ok(Wanted { changes, options })
+    }
+
+    /// Returns the options as words of the command line of `moire render`.
+    pub fn words(&self) -> Vec<String> {
+        fn word<T: Display>(value: Option<T>) -> Option<String> {
+            value.map(|value| value.to_string())
+        }
+        let (changes, options) = (&self.changes, &self.options);
+        let goal = |found: fn(&Goal) -> Option<f64>| word(options.goal.as_ref().and_then(found));
+        let given = words(&[
+            ("size", changes.size.map(|[width, height]| format!("{width}x{height}"))),
+            ("crop", options.crop.map(|Rect { x, y, width, height }| format!("{x},{y},{width},{height}"))),
+            ("spp", word(changes.spp)),
+            ("algorithm", word(changes.algorithm)),
+            ("budget", goal(|goal| if let Goal::Seconds(seconds) = goal { Some(*seconds) } else { None })),
+            ("target-error", goal(|goal| if let Goal::Error(rmse) = goal { Some(*rmse) } else { None })),
+            ("pattern", word(changes.pattern)),
+            ("seed", word(changes.seed)),
+            ("method", word(changes.method)),
+            ("filter", word(changes.filter)),
+            ("mip", word(changes.mip)),
+            ("footprint", word(changes.footprint)),
+            ("precision", word(changes.precision)),
+            ("pixel-filter", word(changes.pixel_filter)),
+            ("pixel-filter-radius", word(changes.pixel_filter_radius)),
+            ("shared", word(changes.shared)),
+        ]);
+        let flag = options.allow_nonfinite.then(|| "--allow-nonfinite".to_owned());
+        given.into_iter().chain(flag).collect()
     }
 
     /// Returns the scene as the options change it.

@@ -7,16 +7,17 @@ use std::time::Instant;
 use moire::internal::gpu::{DeviceSelect, Gpu};
 use moire::internal::lab::study::method::Method;
 use moire::internal::lab::study::record::{self, Question};
-use moire::internal::lab::study::{self as lab, Options, ReferenceChoice};
+use moire::internal::lab::study::{self as lab, Options, ReferenceChoice, steadiness};
 use moire::internal::output::{OutputFolder, write_file};
 use moire::internal::scene::MAX_SPP;
 use moire::internal::scene::prune::prune;
-use moire::{Error, ErrorKind, Result};
+use moire::{Error, ErrorKind, Film, Result};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{exception, or_kind};
 use crate::options::Given;
+use crate::process;
 use crate::scene::Scene;
 use crate::watched::watched;
 
@@ -26,7 +27,7 @@ const BEST: &str = "best";
 /// The file of a scene that has none, in the folder of the study, as the page's commands need one.
 const SCENE_FILE: &str = "scene.toml";
 
-/// Measures, and returns the record as JSON. `text`: that of a scene without a file.
+/// Measures, and returns as JSON a list of the record and of a note where the machine was too busy to tell neighbours apart. `text`: that of a scene without a file.
 #[pyfunction]
 pub fn study<'py>(
     py: Python<'py>,
@@ -37,6 +38,7 @@ pub fn study<'py>(
     arguments: Vec<String>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<String> {
+    process::begin(py)?;
     let started = Instant::now();
     let given = Given(options);
     let mut changed = scene.parts.clone();
@@ -44,11 +46,16 @@ pub fn study<'py>(
         (changed.width, changed.height) = (width, height);
     }
     let device = given.value::<String>("device", "the name of a device")?;
+    if device.as_deref() == Some("oracle") {
+        let what = "a study measures a device; the oracle is no device, but it can make the reference";
+        let help = "name one that moire.devices() lists, or leave device out; see reference=\"oracle\"";
+        return Err(exception(py, &Error::with_help(what, help)));
+    }
     let select = device.as_deref().map_or(Ok(DeviceSelect::Default), DeviceSelect::parse);
     let select = select.map_err(|error| exception(py, &error))?;
     let names = given.value::<Vec<String>>("methods", "a list of names")?.unwrap_or_default();
     let listed = methods(&names).map_err(|error| exception(py, &error))?;
-    let budget = given.positive("budget", f64::INFINITY)?.map(Question::Budget);
+    let budget = given.seconds("budget")?.map(Question::Budget);
     let error = given.positive("error", f64::INFINITY)?.map(Question::Error);
     if budget.is_some() && error.is_some() {
         return Err(exception(
@@ -72,14 +79,18 @@ pub fn study<'py>(
             Some("oracle") => ReferenceChoice::Oracle,
             Some(file) => ReferenceChoice::File(file.into()),
         },
-        limit: given.positive("seconds", f64::INFINITY)?.unwrap_or(600.0),
+        limit: given.seconds("seconds")?.unwrap_or(600.0),
         started,
         out,
         arguments,
     };
+    if let ReferenceChoice::File(file) = &options.reference {
+        py.detach(|| Film::open(file)).map_err(|error| exception(py, &error))?;
+    }
     prune(&mut changed);
     let found = watched(py, "a study", progress, |progress| {
-        let _folder = OutputFolder::prepare(&options.out, record::FILE)?;
+        let _folder = OutputFolder::prepare(&options.out, record::FILE)
+            .map_err(|error| or_kind(error, ErrorKind::File))?;
         if let Some(text) = text {
             changed.path = options.out.join(SCENE_FILE);
             write_file(&changed.path, text.as_bytes())?;
@@ -87,7 +98,8 @@ pub fn study<'py>(
         let gpu = Gpu::open(&select)?;
         lab::run(&gpu, &changed, &options, progress).map_err(|error| or_kind(error, ErrorKind::Unsupported))
     })?;
-    serde_json::to_string(&found)
+    let told = (&found, steadiness::note(&found));
+    serde_json::to_string(&told)
         .map_err(|error| exception(py, &Error::new(format!("the study as JSON: {error}"))))
 }
 

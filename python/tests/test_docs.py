@@ -26,7 +26,7 @@ def test_code_runs(page, tmp_path, monkeypatch):
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
     monkeypatch.chdir(tmp_path)
     pathlib.Path("floor.toml").write_text(TEXT)
-    moire.render("@lecture", spp=4).save("reference.exr")
+    moire.render("@lecture", size=(96, 64), spp=4).save("reference.exr")
     names = {"text": TEXT}
     for block in blocks:
         exec(block, names)

@@ -23,7 +23,7 @@ LONG = {"spp": 65536, "pattern": "random", "size": (512, 512)}
         (moire.FileError, "none.toml", lambda: moire.Scene("none.toml")),
         (moire.FileError, "none.png", lambda: moire.compare("none.png", "none.png")),
         (moire.OptionsError, "KEY=VALUE", lambda: moire.Scene("@lecture", set={"": 1})),
-        (moire.OptionsError, "did you mean \"sobol-owen\"", lambda: moire.render("@lecture", pattern="sobol-owe")),
+        (moire.OptionsError, 'did you mean "sobol-owen"', lambda: moire.render("@lecture", pattern="sobol-owe")),
         (moire.OptionsError, "size", lambda: moire.render("@lecture", size=(0, 8))),
         (moire.OptionsError, "whole number", lambda: moire.render("@lecture", spp=-1)),
         (moire.OptionsError, "above 0", lambda: moire.render("@lecture", budget=0)),
@@ -34,7 +34,7 @@ LONG = {"spp": 65536, "pattern": "random", "size": (512, 512)}
         (moire.NoDeviceError, "no such device", lambda: moire.Renderer("no such device")),
         (TypeError, "unexpected", lambda: moire.render("@lecture", samples=1)),
         (TypeError, "unexpected", lambda: moire.aov("@lecture", "depth", samples=1)),
-        (ValueError, "height", lambda: moire.compare([[[1.0]]], [[[1.0]]])),
+        (moire.OptionsError, "height", lambda: moire.compare([[[1.0]]], [[[1.0]]])),
     ],
 )
 def test_errors_have_kinds(kind, said, work):

@@ -4,7 +4,6 @@ import subprocess
 import sys
 
 import numpy as np
-import pytest
 
 import moire
 
@@ -28,7 +27,9 @@ def test_values_are_linear_light(renderer):
 def test_options_are_those_of_the_program(renderer, lecture):
     picture = renderer.render(lecture, spp=16, pattern="sobol-owen", filter="nearest", size=(40, 30), seed=3)
     assert (picture.size, picture.report["samples"], picture.report["pattern"]) == ((40, 30), 16, "sobol-owen")
-    again = renderer.render(lecture.set("sampler.*.filter", "nearest"), spp=16, pattern="sobol-owen", size=(40, 30), seed=3)
+    again = renderer.render(
+        lecture.set("sampler.*.filter", "nearest"), spp=16, pattern="sobol-owen", size=(40, 30), seed=3
+    )
     np.testing.assert_array_equal(picture.array, again.array)
     other = renderer.render(lecture, spp=16, pattern="sobol-owen", filter="nearest", size=(40, 30), seed=4)
     assert not np.array_equal(picture.array, other.array)

@@ -29,7 +29,8 @@ def test_a_scene_is_built_from_a_dictionary(renderer):
 
 
 def test_a_text_is_a_scene():
-    text = '[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n[image]\nwidth = 8\nheight = 8\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n'
+    camera = "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n"
+    text = f"{camera}[image]\nwidth = 8\nheight = 8\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n"
     assert moire.Scene.from_toml(text, set={"image.width": 16}).size == (16, 8)
 
 

@@ -1,5 +1,6 @@
 //! The command line: one file per subcommand, each with its arguments and a `run`.
 
+pub mod account;
 pub mod compare;
 pub mod completions;
 pub mod devices;
@@ -15,8 +16,8 @@ mod overrides;
 pub mod pattern;
 pub mod program;
 mod progress;
-mod quantity;
-mod record;
+pub mod quantity;
+pub mod record;
 pub mod render;
 mod render_args;
 mod replay;

@@ -1,5 +1,5 @@
 //! The whole command line: its commands by name. In: the arguments, of which the first is the name of the program. Out: what
-//! the command prints, and the exit code. 0: success; 1: a comparison failed; 2: an error, including a fault of the program
+//! the command prints, and the number of its exit code. 0: success; 1: a comparison failed; 2: an error, including a fault of the program
 //! itself; 130: interrupted by Ctrl-C.
 
 use std::ffi::OsString;
@@ -51,16 +51,23 @@ fn command_line() -> clap::Command {
     Cli::command().mut_subcommand("view", hidden)
 }
 
-/// Runs the command that the arguments name and prints its error.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the command that the arguments name and prints its error. Returns the exit code as a number, of which programs in
+/// other languages make their own.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     super::prepare_process();
     panics::record();
-    super::exit_code(panics::contain(&"moire", || {
+    let code = super::exit_code(panics::contain(&"moire", || {
         let matches = matches(arguments.into_iter().collect());
         let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
         let own = matches.subcommand().map(|(_, own)| own);
         panics::contain(&format_args!("moire {}", command.name()), || command.run(own.unwrap_or(&matches)))
-    }))
+    }));
+    number(code)
+}
+
+/// Returns the number of an exit code, which can be compared and not read.
+fn number(code: ExitCode) -> u8 {
+    (0..=u8::MAX).find(|number| ExitCode::from(*number) == code).unwrap_or(2)
 }
 
 /// Parses the arguments. Answers and errors of the parser end the program.

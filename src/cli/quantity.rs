@@ -8,7 +8,7 @@ const UNITS: [(&str, f64); 6] =
     [("us", 1e-6), ("µs", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)];
 const EXPECTED: &str = "expected a time above 0: a number of seconds, or one with a unit (us, ms, s, min, h), such as 0.05, 50ms or 2min";
 
-pub(super) fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
         _ => Err("expected a number above 0".into()),
@@ -26,7 +26,7 @@ pub(super) fn samples(text: &str) -> Result<u32, String> {
 }
 
 /// Parses a time; without a unit it is in seconds.
-pub(super) fn seconds(text: &str) -> Result<f64, String> {
+pub fn seconds(text: &str) -> Result<f64, String> {
     let text = text.trim();
     if let Ok(value) = positive(text) {
         return Ok(value);

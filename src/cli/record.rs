@@ -48,6 +48,9 @@ pub struct SceneRecord {
     /// Why there is no text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// The textures that were arrays of the program that rendered, which no record holds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub arrays: Vec<String>,
 }
 
 impl Record {
@@ -58,7 +61,7 @@ impl Record {
             program: PROGRAM.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             commit: option_env!("MOIRE_COMMIT").map(String::from),
-            scene: SceneRecord { path: path.into(), bytes, crc32, text, note },
+            scene: SceneRecord { path: path.into(), bytes, crc32, text, note, arrays: Vec::new() },
             options,
             device: device.into(),
             settings,

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use clap::ArgMatches;
 
+use super::account;
 use super::layers::Wanted;
 use super::outputs::{Outputs, check_distinct, default_name};
 use super::progress::Bar;
@@ -20,12 +21,11 @@ use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::core::progress::Progress;
 use crate::gpu::DeviceSelect;
-use crate::lab::verify::known::anisotropy_fault;
 use crate::output::{self, WriteOptions};
 use crate::render::{self, Kept, On, Options, Picture, Tuning};
-use crate::scene::model::{Algorithm, Scene};
+use crate::scene::model::Scene;
 use crate::scene::prune::prune;
-use crate::scene::{self, SceneFile, advice};
+use crate::scene::{self, SceneFile};
 use crate::texture::color_profile::ColorProfile;
 use crate::texture::data::ColorSpace;
 use crate::texture::read_file::{color_profile, is_turned};
@@ -212,27 +212,10 @@ impl<'a> Job<'a> {
     }
 
     fn add_warnings(&self, scene: &Scene, ran: &mut Picture) {
-        let warnings = &mut ran.report.warnings;
-        let samples_anisotropically = advice::samples_anisotropically(scene);
-        for fault in ran.devices.iter().filter(|_| samples_anisotropically).filter_map(anisotropy_fault) {
-            warnings.push(format!("{fault}; --method shader reads the right ones"));
-        }
-        warnings.splice(..0, advice::of_scene(scene));
-        warnings.extend(self.args.files.without_effect(&self.outputs, self.args.layers.has_beauty()));
-        warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
-        if self.has_goal() && self.args.overrides.names_spp() {
-            warnings
-                .push("--spp has no effect with --budget or --target-error, which choose the samples".into());
-        }
-        let counts_follow_neighbours =
-            matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
-        if self.args.crop.is_some() && counts_follow_neighbours {
-            warnings.push(
-                "--crop with algorithm adaptive or auto: samples go where this part errs most, so its pixels differ \
-                 from those of the full picture within their noise; with --algorithm samples they are equal"
-                    .into(),
-            );
-        }
+        account::add_warnings(self.args, scene, ran);
+        let idle = self.args.files.without_effect(&self.outputs, self.args.layers.has_beauty());
+        ran.report.warnings.extend(idle);
+        ran.report.warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
     }
 }
 

@@ -125,6 +125,12 @@ impl<'a> Replay<'a> {
     /// Reads the scene: its text as recorded, or the file where only that is known.
     pub fn load(&self, reading: &Reading<'_>) -> Result<(Scene, SceneFile)> {
         let path = self.scene_path();
+        if let [name, ..] = &self.record.scene.arrays[..] {
+            let what = format!(
+                "its texture {name:?} was an array of the program that rendered it, which no record holds"
+            );
+            return Err(self.refused(&what).of_kind(ErrorKind::File));
+        }
         match &self.record.scene.text {
             Some(text) => {
                 Ok((self.scene_of_text(text, path, reading)?, SceneFile::of_bytes(text.as_bytes())))

@@ -2,6 +2,7 @@
 //! cannot be written, sets it to a temporary one, so that the next start finds its shaders compiled
 //! and Mesa prints no warning. Paths follow Mesa's `disk_cache_generate_cache_dir`.
 
+use std::ffi::OsString;
 use std::fs::{self, DirBuilder};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Path, PathBuf};
@@ -15,17 +16,25 @@ const CACHE: &str = "mesa_shader_cache";
 /// Sets the cache folder of this process if the default cannot be written. Does nothing once there
 /// are other threads, which might read the environment at the same time.
 pub fn prepare() {
-    let decided = ["MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"].map(env::var_os);
-    if decided.iter().any(Option::is_some) || wanted().is_some_and(|folder| is_usable(&folder)) || !is_alone()
+    if is_alone()
+        && let Some((name, value)) = advised()
     {
-        return;
+        // SAFETY: this is the only thread of the process.
+        unsafe { env::set_var(name, value) };
     }
-    let (name, value) = match private_folder(&env::temp_dir()) {
+}
+
+/// Returns the variable of the environment that [`prepare`] would set, for programs that set it in
+/// their own way; `None` if the default suits or the user has decided.
+pub fn advised() -> Option<(&'static str, OsString)> {
+    let decided = ["MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"].map(env::var_os);
+    if decided.iter().any(Option::is_some) || wanted().is_some_and(|folder| is_usable(&folder)) {
+        return None;
+    }
+    Some(match private_folder(&env::temp_dir()) {
         Ok(folder) => ("MESA_SHADER_CACHE_DIR", folder.into_os_string()),
         Err(_) => ("MESA_SHADER_CACHE_DISABLE", "true".into()),
-    };
-    // SAFETY: this is the only thread of the process.
-    unsafe { env::set_var(name, value) };
+    })
 }
 
 /// Returns the folder in which Mesa creates its cache, or `None` for a user without a home

@@ -39,7 +39,7 @@ pub use buffer::{Buffer, BufferUse};
 pub use debug::{MessageLog, validation_available};
 pub use descriptor::{BindGroup, BindingDesc, BindingKind, Bound};
 #[cfg(unix)]
-pub use driver_cache::prepare as prepare_driver_cache;
+pub use driver_cache::{advised as advised_driver_cache, prepare as prepare_driver_cache};
 pub use host_memory::{give_back as give_back_host_memory, prepare as prepare_host_memory};
 pub use image::{Image, ImageDesc, ImageFormat, ImageShape, Swizzle};
 pub use info::{DeviceInfo, DeviceKind, DeviceLimits};
@@ -61,6 +61,12 @@ use staging::Staging;
 /// Does nothing: Mesa has a shader cache on Unix only.
 #[cfg(not(unix))]
 pub fn prepare_driver_cache() {}
+
+/// Returns nothing, for the same reason.
+#[cfg(not(unix))]
+pub fn advised_driver_cache() -> Option<(&'static str, std::ffi::OsString)> {
+    None
+}
 
 /// Options for opening a device.
 #[derive(Clone, Copy, Debug, Default)]

@@ -88,6 +88,13 @@ impl DisplayTransform {
     }
 }
 
+/// Returns the pixels that a screen shows, 8 bits a channel, as PNG and TIFF files have them.
+pub fn screen_pixels(film: &Film, display: &DisplayTransform) -> Result<Vec<[u8; 3]>> {
+    display.check()?;
+    let colors = display.prepare().colors(&film.pixels).into_owned();
+    Ok(colors.into_iter().map(|color| color.map(srgb8)).collect())
+}
+
 /// A transform ready for pixels.
 pub(super) struct Prepared {
     is_identity: bool,

@@ -30,7 +30,7 @@ use crate::core::film::{Film, Placement};
 use crate::core::layer::Layer;
 use crate::core::panics;
 pub use adaptation::{KELVINS, parse_kelvin, white_of};
-pub use display::{DisplayTransform, STOPS, parse_stops};
+pub use display::{DisplayTransform, STOPS, parse_stops, screen_pixels};
 pub use encode::Format;
 pub use folder::OutputFolder;
 pub use gamut::Gamut;

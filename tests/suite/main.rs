@@ -74,6 +74,7 @@ mod pixel_filters;
 mod procedural;
 #[cfg(unix)]
 mod programs;
+mod python_module;
 mod random_scenes;
 mod rays;
 mod replay;

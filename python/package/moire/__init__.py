@@ -1,6 +1,6 @@
 """moire renders textured scenes with Vulkan compute, with or without a GPU, and measures the error of its pictures.
 
-A :class:`Scene` is read from a file or built; :func:`render` makes a :class:`Picture` of it, whose array is linear light::
+A :class:`Scene` is read from a file or built; :func:`render` makes a :class:`Picture` of it, an array of linear light::
 
     import moire
 
@@ -33,25 +33,42 @@ from ._errors import (
     UnsupportedError,
 )
 from ._measure import Comparison, Study, compare, study
-from ._render import Picture, Renderer, aov, render
+from ._options import DisplayOptions, RenderOptions, SaveOptions
+from ._picture import Picture, read_record
+from ._render import Renderer, aov, prepare_drivers as _prepare_drivers, render
 from ._scene import Scene
 
 __version__: str = _moire.__version__
 
 
 def scenes() -> dict[str, str]:
-    """Return the scenes that the program has in itself, by name, with what each shows."""
+    """Return the scenes that the program has in itself, by name, with what each shows.
+
+    Examples
+    --------
+    >>> "@lecture" in moire.scenes()
+    True
+    """
     return _moire.scenes()
 
 
 def devices() -> list[dict[str, Any]]:
-    """Return the Vulkan devices of this machine: ``index``, ``name``, ``kind``, ``driver``, ``limits``, and ``default``."""
-    return _json.loads(_moire.devices())
+    """Return the Vulkan devices of this machine.
+
+    Returns
+    -------
+    list of dict
+        ``index``, ``name``, ``kind``, ``driver``, ``limits``, and ``default``: whether it is taken if none is named.
+    """
+    _prepare_drivers()
+    found: list[dict[str, Any]] = _json.loads(_moire.devices())
+    return found
 
 
 __all__ = [
     "Comparison",
     "DeviceLostError",
+    "DisplayOptions",
     "Error",
     "FileError",
     "InternalError",
@@ -61,8 +78,10 @@ __all__ = [
     "OutOfDeviceMemoryError",
     "OutOfHostMemoryError",
     "Picture",
+    "RenderOptions",
     "RenderWarning",
     "Renderer",
+    "SaveOptions",
     "Scene",
     "SceneError",
     "Study",
@@ -71,6 +90,7 @@ __all__ = [
     "aov",
     "compare",
     "devices",
+    "read_record",
     "render",
     "scenes",
     "study",

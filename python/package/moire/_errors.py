@@ -2,21 +2,33 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Optional
+from typing import Any, ClassVar, Optional
 
 
 class Error(Exception):
-    """An error of moire. The message names the place; ``help`` is the next step, if the message does not state it."""
+    """An error of moire, of any kind.
 
-    #: True if the same work may succeed when it is retried.
+    The message names the place: the file, line and key, or the option.
+
+    Attributes
+    ----------
+    help : str or None
+        The next step, if the message does not state it. Tracebacks show it from Python 3.11 on.
+    is_transient : bool
+        True if the same work may succeed when it is retried.
+    """
+
     is_transient: ClassVar[bool] = False
+    help: Optional[str]
 
-    def __init__(self, message: str, help: Optional[str] = None) -> None:
+    def __init__(self, message: str = "", help: Optional[str] = None) -> None:
         super().__init__(message)
         self.help = help
-        # Tracebacks show notes from Python 3.11 on.
         if help and hasattr(self, "add_note"):
             self.add_note(f"help: {help}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (*self.args, self.help)
 
 
 class DeviceLostError(Error):
@@ -25,13 +37,13 @@ class DeviceLostError(Error):
     is_transient = True
 
 
-class OutOfDeviceMemoryError(Error):
+class OutOfDeviceMemoryError(Error, MemoryError):
     """The device is out of memory."""
 
     is_transient = True
 
 
-class OutOfHostMemoryError(Error):
+class OutOfHostMemoryError(Error, MemoryError):
     """The host is out of memory."""
 
     is_transient = True
@@ -42,18 +54,18 @@ class NoDeviceError(Error):
 
 
 class UnsupportedError(Error):
-    """The device lacks a feature that the scene or the options need."""
+    """The device or the process lacks something that the scene or the options need."""
 
 
 class FileError(Error):
     """A file cannot be read, decoded or written."""
 
 
-class SceneError(Error):
+class SceneError(Error, ValueError):
     """The scene breaks a rule or a limit; the message has file, line, column and key."""
 
 
-class OptionsError(Error):
+class OptionsError(Error, ValueError):
     """An option, or a combination of options, is invalid."""
 
 
@@ -66,4 +78,4 @@ class InternalError(Error):
 
 
 class RenderWarning(UserWarning):
-    """A warning about a picture that was rendered, such as of values that are not finite."""
+    """A warning about a picture that was rendered, such as of a filter that has no effect."""

@@ -2,98 +2,47 @@
 
 from __future__ import annotations
 
-import json
 import os
-import sys
 import warnings
-from collections.abc import Callable, Iterable
-from typing import Any, Optional, Union
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _moire, _scene
 from ._errors import RenderWarning
-from ._scene import Path, Scene
+from ._options import Device, Path, Progress, RenderOptions, check, takes
+from ._picture import Picture
+from ._progress import Bar
+from ._scene import Scene
 
-#: Called with the fraction in [0, 1] that is done; ``True`` draws a bar on stderr. ``False`` as an answer cancels.
-Progress = Union[Callable[[float], Any], bool, None]
-#: A device as the option ``--device`` takes it, or several that share the work.
-Device = Union[str, int, Iterable[Union[str, int]], None]
+if TYPE_CHECKING:
+    from typing_extensions import Self, Unpack
 
 #: Layers that count, which are whole numbers; 0 where there is nothing.
 _COUNTED = {"instance", "material"}
 
 
-class Picture:
-    """A picture in linear light.
-
-    ``array`` is a NumPy array of float32 of height × width × 3, the top row first; it is the renderer's own memory, not a
-    copy. ``report`` has what is known of the render: ``device``, ``samples``, ``seconds``, ``reached``,
-    ``estimated_rmse``, ``outcome``, ``warnings`` and others.
-    """
-
-    def __init__(self, array: Any, report: Optional[dict[str, Any]] = None) -> None:
-        self.array: NDArray[np.float32] = rgb(array)
-        self.report: dict[str, Any] = report or {}
-
-    @classmethod
-    def open(cls, path: Path) -> Picture:
-        """Read a picture file; 8- and 16-bit values are decoded from sRGB, float values are linear."""
-        return cls(_moire.read(os.fspath(path)))
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Width and height in pixels."""
-        height, width, _ = self.array.shape
-        return width, height
-
-    def save(
-        self,
-        path: Path,
-        *,
-        exposure: Optional[float] = None,
-        white_balance: Optional[float] = None,
-        tone_map: Optional[str] = None,
-        gamut: Optional[str] = None,
-        png_bits: Optional[int] = None,
-        jpeg_quality: Optional[int] = None,
-    ) -> None:
-        """Write the picture. The ending selects the format: ``.exr`` and ``.hdr`` keep linear light, ``.png``, ``.jpg`` and
-        ``.tif`` are encoded for a screen, which is what the other arguments are about. The file appears complete or not
-        at all."""
-        options = {
-            "exposure": exposure,
-            "white_balance": white_balance,
-            "tone_map": tone_map,
-            "gamut": gamut,
-            "png_bits": png_bits,
-            "jpeg_quality": jpeg_quality,
-        }
-        _moire.save(rgb(self.array), os.fspath(path), options)
-
-    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
-        if copy is False and dtype is not None and np.dtype(dtype) != self.array.dtype:
-            raise ValueError(f"a picture is float32; as {np.dtype(dtype)} it would be a copy")
-        if dtype is not None and np.dtype(dtype) != self.array.dtype:
-            return self.array.astype(dtype)
-        return self.array.copy() if copy else self.array
-
-    def _repr_png_(self) -> bytes:
-        return _moire.png(rgb(self.array))
-
-    def __repr__(self) -> str:
-        width, height = self.size
-        made = f", {self.report['samples']:g} samples on {self.report['device']}" if self.report else ""
-        return f"<moire.Picture {width}×{height}{made}>"
-
-
 class Renderer:
     """A device that is kept over renders, with its pipelines and the textures of the last scene.
 
-    ``device`` is one that :func:`moire.devices` lists: its index, a part of its name, ``"cpu"`` or ``"gpu"``; or
-    ``"oracle"``, which is float64 on the CPU; or a list of several that share the work. The default is the first discrete
-    GPU, otherwise an integrated one, otherwise a CPU driver.
+    It may be used by several threads, which it serves one after the other; two renderers work at the same time. In a
+    ``with`` statement the device is given back at the end.
+
+    Parameters
+    ----------
+    device : str, int or list, optional
+        One that :func:`moire.devices` lists: its index, a part of its name, ``"cpu"`` or ``"gpu"``; or ``"oracle"``,
+        which is float64 on the CPU; or a list of several that share the work. The default is the first discrete GPU,
+        otherwise an integrated one, otherwise a CPU driver.
+
+    Examples
+    --------
+    >>> with moire.Renderer("cpu") as renderer:
+    ...     pictures = [renderer.render("@quad", size=(size, size)) for size in (16, 32)]
+    >>> [picture.size for picture in pictures]
+    [(16, 16), (32, 32)]
     """
 
     def __init__(self, device: Device = None) -> None:
@@ -101,8 +50,11 @@ class Renderer:
             devices: list[str] = []
         elif isinstance(device, (str, int)):
             devices = [str(device)]
-        else:
+        elif isinstance(device, Iterable):
             devices = [str(one) for one in device]
+        else:
+            raise TypeError(f"device: expected a name, an index or a list of them, found {device!r}")
+        prepare_drivers()
         self._native = _moire.Renderer(devices)
 
     @property
@@ -110,132 +62,171 @@ class Renderer:
         """The device's name; several are joined by ``" + "``."""
         return self._native.device
 
+    @takes(RenderOptions)
     def render(
-        self,
-        scene: Union[Scene, Path],
-        *,
-        spp: Optional[int] = None,
-        pattern: Optional[str] = None,
-        filter: Optional[str] = None,
-        size: Optional[tuple[int, int]] = None,
-        crop: Optional[tuple[int, int, int, int]] = None,
-        seed: Optional[int] = None,
-        algorithm: Optional[str] = None,
-        method: Optional[str] = None,
-        mip: Optional[str] = None,
-        footprint: Optional[str] = None,
-        precision: Optional[str] = None,
-        pixel_filter: Optional[str] = None,
-        pixel_filter_radius: Optional[float] = None,
-        shared: Optional[bool] = None,
-        budget: Optional[float] = None,
-        target_error: Optional[float] = None,
-        allow_nonfinite: bool = False,
-        progress: Progress = None,
+        self, scene: Union[Scene, Path], *, progress: Progress = None, **options: Unpack[RenderOptions]
     ) -> Picture:
-        """Render a scene; the options are those of ``moire render``, and what is not given is the scene's own.
+        """Render a scene. Other threads run meanwhile, and Ctrl-C raises ``KeyboardInterrupt``.
 
-        ``budget`` ends the render after this number of seconds, ``target_error`` at this estimated RMSE. Other threads of
-        Python run meanwhile, and Ctrl-C raises ``KeyboardInterrupt``.
+        The options are those of ``moire render``; what is not given is the scene's own.
+
+        Parameters
+        ----------
+        scene : Scene or path
+            What to render.
+        progress : callable or True, optional
+            A function that is called with the fraction that is done, and cancels by returning ``False``; or a bar.
+        spp : int, optional
+            Samples per pixel.
+        pattern : str, optional
+            Sample pattern within a pixel, such as ``"sobol-owen"``.
+        filter, mip, method, footprint : str, optional
+            How textures are read: filter and levels of every sampler, by the device or the shader, and the footprint
+            over which look-ups are averaged.
+        size : (int, int), optional
+            Width and height in pixels.
+        crop : (int, int, int, int), optional
+            Render a part only: x and y of its top left corner, width and height.
+        seed : int, optional
+            Seed of the samples.
+        algorithm : str, optional
+            ``"samples"``, ``"cone"``, ``"adaptive"`` or ``"auto"``.
+        precision : str, optional
+            Precision of geometry.
+        pixel_filter, pixel_filter_radius : str and float, optional
+            The reconstruction filter, and its radius in pixels.
+        shared : bool, optional
+            Use one set of displacements for all pixels.
+        budget : float or str, optional
+            Render for this time and then stop: seconds, or a text such as ``"50ms"``.
+        target_error : float, optional
+            Render until the RMSE is estimated to be this.
+        allow_nonfinite : bool, optional
+            Accept NaN and infinity in textures.
+
+        Returns
+        -------
+        Picture
+            Its ``array`` is linear light, and its ``report`` tells samples, times and estimated errors.
         """
-        options = {name: own for name, own in locals().items() if name not in ("self", "scene", "progress")}
-        return self._render(scene, options, progress)
+        return self._render(scene, check(options, RenderOptions), progress)
 
     def _render(self, scene: Union[Scene, Path], options: dict[str, Any], progress: Progress) -> Picture:
         """Render, and warn at the place that called the caller."""
-        with _bar(progress) as callback:
-            array, report = self._native.render(_scene.of(scene)._native, options, callback)
-        known = json.loads(report)
-        for told in known["warnings"]:
-            warnings.warn(told, RenderWarning, stacklevel=3)
-        return Picture(array, known)
+        with Bar(progress) as callback:
+            array, told = self._native.render(_scene.of(scene)._native, options, callback)
+        picture = Picture._rendered(array, told)
+        for warning in picture.report["warnings"]:
+            warnings.warn(warning, RenderWarning, stacklevel=3)
+        return picture
 
+    @takes(RenderOptions)
     def aov(
         self,
         scene: Union[Scene, Path],
         names: Union[str, Iterable[str]],
         *,
         progress: Progress = None,
-        **options: Any,
+        **options: Unpack[RenderOptions],
     ) -> dict[str, NDArray[Any]]:
         """Measure layers: what each pixel sees beside its colour. See :func:`moire.aov`."""
         wanted = [name.strip() for name in names.split(",")] if isinstance(names, str) else list(names)
-        check_options(options)
-        read = _scene.of(scene)
+        given, read = check(options, RenderOptions), _scene.of(scene)
         native = read._with_shapes() if "instance" in wanted else read._native
-        with _bar(progress) as callback:
-            layers = self._native.aov(native, list(dict.fromkeys(wanted)), options, callback)
+        with Bar(progress) as callback:
+            layers = self._native.aov(native, list(dict.fromkeys(wanted)), given, callback)
         return {name: _layer(name, values) for name, values in layers}
+
+    def close(self) -> None:
+        """Give the device back. A closed renderer renders no more."""
+        self._native.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a moire.Renderer holds a device and is not copied or pickled; make one in each process")
 
     def __repr__(self) -> str:
         return f"<moire.Renderer on {self.device}>"
 
 
+@takes(RenderOptions)
 def render(
-    scene: Union[Scene, Path], *, device: Device = None, progress: Progress = None, **options: Any
+    scene: Union[Scene, Path],
+    *,
+    device: Device = None,
+    progress: Progress = None,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
-    """Render a scene once. The options are those of :meth:`Renderer.render`::
+    """Render a scene once, on a device that is opened for it. A :class:`Renderer` keeps its device.
 
-        picture = moire.render("@lecture", spp=64, pattern="sobol-owen", filter="ewa", footprint="cone")
-        picture.array.mean(axis=(0, 1))
+    Parameters
+    ----------
+    scene : Scene or path
+        What to render.
+    device : str, int or list, optional
+        As :class:`Renderer` takes it.
+    progress, **options
+        Those of :meth:`Renderer.render`.
+
+    Examples
+    --------
+    >>> picture = moire.render("@lecture", spp=4, pattern="sobol-owen", filter="ewa", footprint="cone", size=(64, 48))
+    >>> picture.array.shape
+    (48, 64, 3)
     """
-    check_options(options)
-    return Renderer(device)._render(scene, options, progress)
+    given = check(options, RenderOptions)
+    with Renderer(device) as renderer:
+        return renderer._render(scene, given, progress)
 
 
+@takes(RenderOptions)
 def aov(
-    scene: Union[Scene, Path], names: Union[str, Iterable[str]], *, device: Device = None, **options: Any
+    scene: Union[Scene, Path],
+    names: Union[str, Iterable[str]],
+    *,
+    device: Device = None,
+    progress: Progress = None,
+    **options: Unpack[RenderOptions],
 ) -> dict[str, NDArray[Any]]:
-    """Measure layers: what each pixel sees beside its colour, such as ``"depth,normal"``.
+    """Measure layers: what each pixel sees beside its colour.
 
-    Returns an array for each: height × width, or height × width × channels if there are several. Where a pixel has no
-    value it is NaN; ``instance`` and ``material`` are whole numbers from 1, and 0 there. The options are those of
-    :meth:`Renderer.render`.
+    Parameters
+    ----------
+    scene : Scene or path
+        What is seen.
+    names : str or list of str
+        The layers, such as ``"depth,normal"``; those of ``moire render --aov``.
+    device, progress, **options
+        Those of :func:`render`.
+
+    Returns
+    -------
+    dict of arrays
+        Height × width, or height × width × channels if there are several. Where a pixel has no value it is NaN;
+        ``instance`` and ``material`` are whole numbers from 1, and 0 there.
+
+    Examples
+    --------
+    >>> layers = moire.aov("@lecture", "depth,normal", size=(64, 48))
+    >>> layers["depth"].shape, layers["normal"].shape
+    ((48, 64), (48, 64, 3))
     """
-    return Renderer(device).aov(scene, names, **options)
+    with Renderer(device) as renderer:
+        return renderer.aov(scene, names, progress=progress, **options)
 
 
-def check_options(options: dict[str, Any]) -> None:
-    """Refuse options that a render has not, as Python does for arguments."""
-    known = {*(Renderer.render.__kwdefaults__ or {})} - {"progress"}
-    for name in options:
-        if name not in known:
-            raise TypeError(f"unexpected keyword argument {name!r}; there are {', '.join(sorted(known))}")
-
-
-def rgb(array: Any) -> NDArray[np.float32]:
-    """Return an array as a picture: float32 of height × width × 3, in one piece. Grey is replicated."""
-    values = np.asarray(array, dtype=np.float32)
-    if values.ndim == 2:
-        values = np.repeat(values[:, :, None], 3, axis=2)
-    if values.ndim != 3 or values.shape[2] != 3 or 0 in values.shape:
-        raise ValueError(f"a picture is an array of height × width × 3, not of shape {values.shape}")
-    return np.ascontiguousarray(values)
+def prepare_drivers() -> None:
+    """Give drivers a folder for compiled shaders where the user's own cannot be written, as the program does."""
+    found = _moire.driver_cache()
+    if found is not None:
+        os.environ.setdefault(*found)
 
 
 def _layer(name: str, values: NDArray[np.float32]) -> NDArray[Any]:
     flat = values[:, :, 0] if values.shape[2] == 1 else values
     return np.nan_to_num(flat, nan=0.0).astype(np.uint32) if name in _COUNTED else flat
-
-
-class _bar:
-    """A callback, or a bar on stderr for ``True``, which is cleared at the end."""
-
-    WIDTH = 40
-
-    def __init__(self, progress: Progress) -> None:
-        self.draws = progress is True
-        self.callback = self.draw if self.draws else progress or None
-
-    def draw(self, done: float) -> None:
-        full = round(done * self.WIDTH)
-        sys.stderr.write(f"\r{'█' * full}{'░' * (self.WIDTH - full)} {done:4.0%}")
-        sys.stderr.flush()
-
-    def __enter__(self) -> Optional[Callable[[float], Any]]:
-        return self.callback  # type: ignore[return-value]
-
-    def __exit__(self, *_: object) -> None:
-        if self.draws:
-            sys.stderr.write("\r" + " " * (self.WIDTH + 5) + "\r")
-            sys.stderr.flush()

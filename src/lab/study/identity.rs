@@ -11,6 +11,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::scene::BuiltIn;
 use crate::scene::model::Scene;
+use crate::texture::source::TextureContent;
 
 use super::record::Conditions;
 
@@ -67,7 +68,14 @@ pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
     for path in std::iter::once(scene.path.as_path()).chain(sources).chain(textures) {
         hash = file(hash, path)?;
     }
-    Ok(hash)
+    // Programs that render scenes may have replaced texels by their own.
+    let own = scene.textures.iter().filter_map(|t| match &t.content {
+        TextureContent::Texels(texels) => Some(texels),
+        _ => None,
+    });
+    Ok(own.fold(hash, |hash, texels| {
+        hash.text(&format!("{}×{}", texels.width, texels.height)).bytes(&texels.bytes)
+    }))
 }
 
 pub fn file(hash: Hash, path: &Path) -> Result<Hash> {
