@@ -52,12 +52,12 @@ pub fn save(
     with.placement =
         placement.map(|[x, y, width, height]| Placement { corner: [x, y], full: [width, height] });
     let run = || {
+        with.check()?;
         let record = record.map(|text| -> Result<String> {
             Ok(with_words(Record::parse(&text, "this picture")?, &words)?.text())
         });
         let record = record.transpose()?;
         let with = WriteOptions { record: record.as_deref(), ..with };
-        with.check()?;
         write(&film, &path, &with).map_err(|error| or_kind(error, ErrorKind::File))
     };
     py.detach(run).map_err(|error| exception(py, &error))
