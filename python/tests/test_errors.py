@@ -1,5 +1,6 @@
 """Errors are exceptions with kinds, and work is cancelled."""
 
+import math
 import os
 import signal
 import subprocess
@@ -32,6 +33,34 @@ LONG = {"spp": 65536, "pattern": "random", "size": (512, 512)}
         (moire.OptionsError, "depth", lambda: moire.aov("@lecture", "dept")),
         (moire.OptionsError, "methods", lambda: moire.study("@lecture", methods="no")),
         (moire.NoDeviceError, "no such device", lambda: moire.Renderer("no such device")),
+        (moire.SceneError, "finite", lambda: moire.Scene("@lecture", set={"camera.vertical_fov": math.nan})),
+        (moire.SceneError, "one table", lambda: moire.Scene.from_dict({"camera": 5})),
+        (moire.FileError, "is a folder", lambda: moire.render("/")),
+        (moire.FileError, "NUL", lambda: moire.render("a\0b")),
+        (moire.FileError, "none.exr", lambda: moire.study("@lecture", methods="grid", reference="none.exr")),
+        (moire.FileError, "folder", lambda: moire.study("@lecture", methods="grid", out="/none/study")),
+        (moire.OptionsError, "camera: @lecture", lambda: moire.Scene("@lecture", camera=3)),
+        (moire.OptionsError, "crop 0,0,0,0", lambda: moire.render("@lecture", crop=(0, 0, 0, 0))),
+        (moire.OptionsError, "spp: spp = 0", lambda: moire.render("@lecture", spp=0)),
+        (moire.OptionsError, "whole number", lambda: moire.render("@lecture", spp=10**30)),
+        (moire.OptionsError, "whole number", lambda: moire.render("@lecture", spp="4")),
+        (moire.OptionsError, "whole number", lambda: moire.render("@lecture", spp=math.nan)),
+        (moire.OptionsError, "16384", lambda: moire.render("@lecture", size=(10**6, 10**6))),
+        (moire.OptionsError, "width, height", lambda: moire.render("@lecture", size=(-1, 5))),
+        (moire.OptionsError, "width, height", lambda: moire.render("@lecture", size="8x8")),
+        (moire.OptionsError, "above 0", lambda: moire.render("@lecture", budget=math.nan)),
+        (moire.OptionsError, "no unit", lambda: moire.render("@lecture", budget="50 parsecs")),
+        (moire.OptionsError, "True or False", lambda: moire.render("@lecture", shared="yes")),
+        (moire.OptionsError, "no device", lambda: moire.study("@lecture", device="oracle")),
+        (moire.OptionsError, "numbers from 1", lambda: moire.study("@lecture", spp=[0])),
+        (TypeError, "a moire.Scene or a path", lambda: moire.render(None)),
+        (TypeError, "a moire.Scene or a path", lambda: moire.render(5)),
+        (TypeError, "a dictionary", lambda: moire.Scene("@lecture", set="sampling.spp=3")),
+        (TypeError, "a dictionary", lambda: moire.Scene("@lecture", textures=[1])),
+        (TypeError, "a dictionary", lambda: moire.Scene.from_dict(None)),
+        (TypeError, "the text", lambda: moire.Scene.from_toml(None)),
+        (TypeError, "a function", lambda: moire.render("@lecture", progress=5)),
+        (TypeError, "a name, an index", lambda: moire.Renderer(1.5)),
         (TypeError, "unexpected", lambda: moire.render("@lecture", samples=1)),
         (TypeError, "unexpected", lambda: moire.aov("@lecture", "depth", samples=1)),
         (moire.OptionsError, "height", lambda: moire.compare([[[1.0]]], [[[1.0]]])),
@@ -50,6 +79,14 @@ def test_every_kind_is_an_error_with_help():
     assert "moire new --list" in caught.value.help
     assert not caught.value.is_transient
     assert moire.DeviceLostError("lost").is_transient
+
+
+def test_kinds_are_those_of_python_too():
+    with pytest.raises(ValueError, match="size"):
+        moire.render("@lecture", size=(0, 0))
+    with pytest.raises(ValueError, match="spp"):
+        moire.Scene("@lecture", set={"sampling.spp": -1})
+    assert issubclass(moire.OutOfHostMemoryError, MemoryError)
 
 
 def test_progress_rises_to_the_end(renderer, lecture):

@@ -1,5 +1,6 @@
 """Comparisons and studies."""
 
+import json
 import math
 
 import numpy as np
@@ -20,6 +21,8 @@ def test_planted_differences_are_measured():
     a[0, 0, 0] = np.nan
     found = moire.compare(a, b)
     assert found.nan_pixels == 1 and math.isnan(found.flip)
+    a[0, 0, 0] = np.inf
+    assert (moire.compare(a, b).max, moire.compare(a, b).rmse) == (math.inf, math.inf)
 
 
 def test_pictures_arrays_and_files_are_compared(tmp_path):
@@ -29,6 +32,8 @@ def test_pictures_arrays_and_files_are_compared(tmp_path):
     for other in [values, picture, tmp_path / "a.exr", values.tolist()]:
         assert moire.compare(picture, other).rmse == 0
     assert moire.compare(tmp_path / "a.exr", tmp_path / "a.exr").rmse == 0
+    encoded = np.array([[[0, 128, 255]]], np.uint8)
+    assert moire.compare(encoded, [[[0, 0.2158605, 1]]]).max < 1e-6
     with pytest.raises(moire.Error, match="differ in size"):
         moire.compare(values, values[1:])
 
@@ -39,7 +44,9 @@ def test_a_study_is_a_list_of_records(lecture, device, tmp_path):
     found = {(point["method"], point["spp"]) for point in study}
     assert found == {(method, count) for method in ["grid", "stratified"] for count in [1, 4]}
     assert all(point["errors"]["rmse"] >= 0 and point["seconds"] for point in study)
-    assert study.recommendation
+    assert study.recommendation and study.recommendation in repr(study)
+    assert {"device", "reference", "methods", "points", "analysis", "notes"} <= set(study.record)
+    assert study.record == json.loads((tmp_path / "study/study.json").read_text())
     assert (tmp_path / "study" / "index.html").exists()
     # A question may take more counts than were asked for.
     answered = moire.study(lecture, budget=0.5, **options)

@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 
 import moire
 
@@ -39,6 +40,12 @@ def test_a_render_ends_at_a_goal(renderer, lecture):
     report = renderer.render(lecture, target_error=0.05).report
     assert report["reached"] and report["estimated_rmse"] <= 0.05
     assert renderer.render(lecture, budget=0.05).report["samples"] > 0
+    assert renderer.render(lecture, budget="20ms").report["options"]["size"] == [64, 48]
+
+
+def test_warnings_are_in_the_words_of_python(renderer, lecture):
+    with pytest.warns(moire.RenderWarning, match="^spp has no effect with budget or target_error"):
+        renderer.render(lecture, budget="10ms", spp=4)
 
 
 def test_a_function_renders_once(lecture):

@@ -88,7 +88,7 @@ class Study(list[dict[str, Any]]):
     Attributes
     ----------
     record : dict
-        The whole of ``study.json``: conditions, reference, methods, points, analysis, notes.
+        The whole of ``study.json``: device, conditions, reference, methods, points, analysis, notes.
     folder : str or None
         The folder of the page and plots, if it was kept.
     """

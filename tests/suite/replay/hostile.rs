@@ -43,6 +43,16 @@ fn an_honest_record_is_obeyed() {
 }
 
 #[test]
+fn a_picture_of_a_programs_arrays_is_not_made_again_without_them() {
+    let folder = stage();
+    let mut record = honest();
+    record["scene"]["arrays"] = json!(["floor"]);
+    let told = told_of(folder.path(), &record.to_string());
+    assert!(told.contains("texture \"floor\" was an array of the program that rendered it"), "{told}");
+    assert!(!folder.path().join("y.png").exists());
+}
+
+#[test]
 fn options_that_decide_no_pixels_are_refused() {
     let folder = stage();
     let own = folder.path().join("stolen.png");
