@@ -52,3 +52,17 @@ def test_a_study_is_a_list_of_records(lecture, device, tmp_path):
     answered = moire.study(lecture, budget=0.5, **options)
     assert found <= {(point["method"], point["spp"]) for point in answered}
     assert answered.record["question"] == {"budget": 0.5} and answered.folder is None
+
+
+def test_a_sheet_shows_settings_side_by_side(lecture, device, tmp_path):
+    options = {"size": (24, 16), "repeats": 1, "device": device}
+    vary = {"filter": ["nearest", "linear"], "light.0.position": [[0, 1, 0], [0, 2, 0]]}
+    sheet = moire.sheet(lecture, vary, out=tmp_path / "a.html", zoom=(0, 0, 8, 8), **options)
+    assert [cell["settings"]["filter"] for cell in sheet] == ["nearest", "linear"] * 2
+    assert all(cell["rmse"] >= 0 and cell["seconds"] for cell in sheet)
+    assert sheet._repr_png_().startswith(b"\x89PNG") and "light.0.position" in repr(sheet)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.html"]
+    with pytest.raises(moire.OptionsError, match="possible values"):
+        moire.sheet(lecture, {"filter": ["bilinear"]}, **options)
+    with pytest.raises(moire.OptionsError, match="arrays"):
+        moire.sheet(lecture.with_texture("grass", np.zeros((2, 2))), vary, **options)

@@ -37,6 +37,7 @@ from ._options import DisplayOptions, RenderOptions, SaveOptions
 from ._picture import Picture, read_record
 from ._render import Renderer, aov, prepare_drivers as _prepare_drivers, render
 from ._scene import Scene
+from ._sheet import Sheet, sheet
 
 __version__: str = _moire.__version__
 
@@ -84,6 +85,7 @@ __all__ = [
     "SaveOptions",
     "Scene",
     "SceneError",
+    "Sheet",
     "Study",
     "UnsupportedError",
     "__version__",
@@ -93,5 +95,6 @@ __all__ = [
     "read_record",
     "render",
     "scenes",
+    "sheet",
     "study",
 ]
