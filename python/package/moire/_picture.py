@@ -184,4 +184,5 @@ def rgb(array: Any) -> NDArray[np.float32]:
 def _decoded(values: NDArray[Any]) -> NDArray[np.float64]:
     """Return the linear light of values of 8 or 16 bits."""
     encoded = values / np.float64(np.iinfo(values.dtype).max)
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    decoded: NDArray[np.float64] = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    return decoded
