@@ -40,7 +40,8 @@ def test_a_record_has_scene_settings_seed_and_version(picture, tmp_path):
 
 def test_records_of_texts_name_cameras_and_goals(tmp_path):
     text = "[camera]\neye=[0,0,3]\nlook_at=[0,0,0]\nvertical_fov=40\n"
-    text += '[image]\nwidth=8\nheight=8\n[[material]]\nname="m"\nmodel="unlit"\n[[sphere]]\ncenter=[0,0,0]\nradius=1\nmaterial="m"\n'
+    text += "[image]\nwidth=8\nheight=8\n"
+    text += '[[material]]\nname="m"\nmodel="unlit"\n[[sphere]]\ncenter=[0,0,0]\nradius=1\nmaterial="m"\n'
     picture = moire.render(moire.Scene.from_toml(text), budget="20ms", device="oracle", shared=False)
     picture.save(tmp_path / "a.png")
     record = moire.read_record(tmp_path / "a.png")
@@ -81,7 +82,8 @@ def lecture_text():
 def test_a_picture_does_not_replace_what_it_is_made_of(renderer, tmp_path):
     moire.Picture(np.full((4, 4), 0.5)).save(tmp_path / "texture.png")
     text = "[camera]\neye=[0,0,3]\nlook_at=[0,0,0]\nvertical_fov=40\n[image]\nwidth=8\nheight=8\n"
-    text += '[[texture]]\nname="own"\nfile="texture.png"\ncolor_space="srgb"\n[[material]]\nname="own"\nmodel="unlit"\ntexture="own"\n'
+    text += '[[texture]]\nname="own"\nfile="texture.png"\ncolor_space="srgb"\n'
+    text += '[[material]]\nname="own"\nmodel="unlit"\ntexture="own"\n'
     text += '[[sphere]]\ncenter=[0,0,0]\nradius=1\nmaterial="own"\n'
     (tmp_path / "scene.toml").write_text(text)
     before = (tmp_path / "texture.png").read_bytes()
