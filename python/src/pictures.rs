@@ -10,7 +10,7 @@ use moire::internal::lab::metrics::{common, compare as measure, flip, read_place
 use moire::internal::output::{
     self, DisplayTransform, Format, WriteOptions, screen_pixels, to_bytes_with, write,
 };
-use moire::{Error, ErrorKind, Film, Gamut, Result, ToneMap};
+use moire::{ErrorKind, Film, Gamut, Result, ToneMap};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};

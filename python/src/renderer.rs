@@ -177,6 +177,10 @@ impl Renderer {
             report.remove("outputs");
             report.remove("process");
         }
+        if let Some(seconds) = report["seconds"].as_object_mut() {
+            seconds.remove("write");
+            seconds.remove("total");
+        }
         let placement = wanted.options.crop.map(|crop| [crop.x, crop.y, changed.width, changed.height]);
         Ok(json!({
             "report": report,

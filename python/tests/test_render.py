@@ -1,5 +1,6 @@
 """Renders: arrays of linear light, as the program writes them; options, reports, layers."""
 
+import os
 import subprocess
 import sys
 
@@ -81,3 +82,17 @@ def test_devices_are_listed(renderer):
     assert sum(device["default"] for device in devices) <= 1
     assert renderer.device in [device["name"] for device in devices]
     assert moire.__version__.count(".") == 2
+
+
+def test_times_are_those_of_the_render(renderer, lecture):
+    seconds = renderer.render(lecture).report["seconds"]
+    assert set(seconds) == {"startup", "load", "compile", "upload", "render", "readback"}
+    assert all(value >= 0 for value in seconds.values()) and seconds["render"] > 0
+
+
+def test_drivers_get_a_folder_where_their_own_cannot_be_written(tmp_path):
+    code = "import os, moire; moire.devices(); print(os.environ.get('MESA_SHADER_CACHE_DIR'))"
+    environment = {**os.environ, "XDG_CACHE_HOME": "/proc/none/none", "TMPDIR": str(tmp_path)}
+    environment.pop("MESA_SHADER_CACHE_DIR", None)
+    ran = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert ran.stdout.strip().startswith(str(tmp_path / "moire-"))

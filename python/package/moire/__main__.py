@@ -6,6 +6,7 @@ import signal
 import sys
 
 from . import _moire
+from ._render import prepare_drivers
 
 
 def program() -> int:
@@ -13,6 +14,7 @@ def program() -> int:
     # The program has a handler of its own while it renders; elsewhere Ctrl-C ends it as any other.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.stdout.flush()
+    prepare_drivers()
     return _moire.main(["moire", *sys.argv[1:]])
 
 
