@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _moire
-from ._errors import OptionsError
+from ._errors import OptionsError, RenderWarning
 from ._options import DisplayOptions, Path, SaveOptions, check, takes
 
 if TYPE_CHECKING:
@@ -114,6 +115,10 @@ class Picture:
                 raise OptionsError(
                     f"{name}: this is {what}, which the picture would replace", "choose another name for the picture"
                 )
+        idle = [option for option in DisplayOptions.__annotations__ if given.get(option) is not None]
+        if idle and name.lower().endswith((".exr", ".hdr")):
+            told = f"{', '.join(idle)}: no effect, as OpenEXR and Radiance HDR keep linear light"
+            warnings.warn(told, RenderWarning, stacklevel=2)
         array = rgb(self.array)
         is_rendered = metadata and self._digest is not None and _moire.digest(array) == self._digest
         _moire.save(array, name, given, self._record if is_rendered else None, self._placement)
