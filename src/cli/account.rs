@@ -5,7 +5,7 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use clap::{ArgMatches, Args, Command, FromArgMatches};
+use clap::{ArgMatches, Args, Command as CommandLine, FromArgMatches};
 use serde_json::Value;
 
 use super::record::Record;
@@ -43,7 +43,7 @@ pub fn with_words(mut record: Record, words: &[String]) -> Result<Record> {
 }
 
 fn parse(words: &[String], path: &Path) -> Result<ArgMatches> {
-    let command = RenderArgs::augment_args(Command::new("moire render"));
+    let command = RenderArgs::augment_args(CommandLine::new("moire render"));
     let line = ["moire render".into()].into_iter().chain(words.iter().map(OsString::from));
     command.try_get_matches_from(line.chain(["--".into(), path.as_os_str().to_owned()])).map_err(failed)
 }
