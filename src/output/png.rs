@@ -4,8 +4,7 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use flate2::Compression;
-use flate2::write::DeflateEncoder;
+use flate2::{Compress, Compression, FlushCompress, Status};
 use png::EncodingError;
 use png::chunk::IDAT;
 use rayon::prelude::*;
@@ -85,15 +84,16 @@ struct Band {
     rows: Vec<u8>,
     filters: Filters,
     filtered: Vec<u8>,
-    encoder: DeflateEncoder<Vec<u8>>,
-    compressed: io::Result<Vec<u8>>,
+    deflate: Compress,
+    compressed: Vec<u8>,
+    is_complete: bool,
 }
 
 impl Band {
     fn new() -> Band {
-        let encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
-        let [rows, filtered] = [const { Vec::new() }; 2];
-        Band { rows, filters: Filters::default(), filtered, encoder, compressed: Ok(Vec::new()) }
+        let [rows, filtered, compressed] = [const { Vec::new() }; 3];
+        let deflate = Compress::new(Compression::fast(), false);
+        Band { rows, filters: Filters::default(), filtered, deflate, compressed, is_complete: false }
     }
 
     /// Quantises, filters and compresses some rows. The compressed bytes end at a whole byte, so that those of other
@@ -115,28 +115,23 @@ impl Band {
             self.filters.append_best(above, row, pixel_bytes(samples.bits), &mut self.filtered);
         }
         let is_last = rows.end == film.height as usize;
-        let to = std::mem::replace(&mut self.compressed, Ok(Vec::new())).unwrap_or_default();
-        self.compressed = deflated(&mut self.encoder, &self.filtered, is_last, to);
+        self.is_complete = deflate(&mut self.deflate, &self.filtered, is_last, &mut self.compressed);
     }
 }
 
-/// Compresses some bytes into an emptied buffer, which it returns. They end at a whole byte, and end the stream if they are
-/// the last ones.
-fn deflated(
-    encoder: &mut DeflateEncoder<Vec<u8>>,
-    bytes: &[u8],
-    is_last: bool,
-    mut to: Vec<u8>,
-) -> io::Result<Vec<u8>> {
+/// Compresses some bytes, in place of what was in `to`. They end at a whole byte, and end the stream if they are the last
+/// ones. Returns true if all of them are there.
+fn deflate(compress: &mut Compress, bytes: &[u8], is_last: bool, to: &mut Vec<u8>) -> bool {
+    compress.reset();
     to.clear();
-    encoder.reset(to)?;
-    encoder.write_all(bytes)?;
-    if is_last {
-        encoder.try_finish()?;
-    } else {
-        encoder.flush()?;
-    }
-    Ok(std::mem::take(encoder.get_mut()))
+    // Room for all: after a call that fills its buffer where a block ends, the next ones hold back what follows.
+    to.reserve(bytes.len() + bytes.len() / 10 + 1024);
+    let flush = if is_last { FlushCompress::Finish } else { FlushCompress::Sync };
+    let status = compress.compress_vec(bytes, to, flush);
+    let wanted = if is_last { Status::StreamEnd } else { Status::Ok };
+    status.is_ok_and(|status| status == wanted)
+        && compress.total_in() == bytes.len() as u64
+        && to.len() < to.capacity()
 }
 
 /// Writes the pixels as one chunk a band; the first one begins with the head of the stream, one more ends it.
@@ -154,10 +149,11 @@ fn write_large<W: Write>(
         Band::new,
         |rows, band| band.encode(film, samples, rows),
         |band| {
-            let failed = |e: &io::Error| io::Error::other(format!("some rows cannot be compressed: {e}"));
-            let compressed = band.compressed.as_ref().map_err(failed)?;
+            if !band.is_complete {
+                return Err(io::Error::other("some rows cannot be compressed").into());
+            }
             checksum.write(&band.filtered);
-            writer.write_chunk(IDAT, compressed)
+            writer.write_chunk(IDAT, &band.compressed)
         },
     )?;
     writer.write_chunk(IDAT, &checksum.finish().to_be_bytes())
@@ -185,22 +181,30 @@ mod tests {
         film
     }
 
-    /// The compressor holds back what did not fit into its buffer when a block ended there, and gives it only when asked
-    /// again: at some of these lengths.
+    /// With a smaller buffer, the ends of bands of some of these lengths were lost.
     #[test]
     fn bands_are_compressed_to_their_last_byte_wherever_blocks_end() {
         let mut rng = fastrand::Rng::with_seed(5);
-        let mut encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
-        for length in (57_000..63_000).step_by(100) {
-            for is_last in [false, true] {
-                let bytes: Vec<u8> = (0..length).map(|_| rng.u8(..20)).collect();
-                let compressed = deflated(&mut encoder, &bytes, is_last, Vec::new()).unwrap();
-                let mut read = Vec::with_capacity(length + 1);
-                let mut decoder = flate2::Decompress::new(false);
-                let status = decoder.decompress_vec(&compressed, &mut read, flate2::FlushDecompress::None);
-                assert!(read == bytes, "{} of {length} bytes", read.len());
-                let ended = matches!(status, Ok(flate2::Status::StreamEnd));
-                assert_eq!((ended, decoder.total_in()), (is_last, compressed.len() as u64), "{length}");
+        let (mut compress, mut compressed) = (Compress::new(Compression::fast(), false), Vec::new());
+        for colors in [1, 2, 20, 0] {
+            for length in (1..200).chain((57_000..63_000).step_by(100)).chain([250_000]) {
+                for is_last in [false, true] {
+                    let noise =
+                        |rng: &mut fastrand::Rng| if colors == 0 { rng.u8(..) } else { rng.u8(..colors) };
+                    let bytes: Vec<u8> = (0..length).map(|_| noise(&mut rng)).collect();
+                    assert!(deflate(&mut compress, &bytes, is_last, &mut compressed), "{length}");
+                    let mut read = Vec::with_capacity(length + 1);
+                    let mut inflate = flate2::Decompress::new(false);
+                    let mut ended = false;
+                    // A decoder, too, may want to be asked twice.
+                    for _ in 0..2 {
+                        let rest = &compressed[inflate.total_in() as usize..];
+                        let status = inflate.decompress_vec(rest, &mut read, flate2::FlushDecompress::None);
+                        ended = matches!(status, Ok(Status::StreamEnd));
+                    }
+                    assert!(read == bytes, "{} of {length} bytes", read.len());
+                    assert_eq!((ended, inflate.total_in()), (is_last, compressed.len() as u64), "{length}");
+                }
             }
         }
     }
