@@ -300,3 +300,23 @@ fn commands_say_what_became_of_colors() {
         assert_eq!(said.contains("converted from"), told, "{said}");
     }
 }
+
+#[test]
+fn a_new_scene_names_the_profile_and_tells_one_that_cannot_be_applied() {
+    let folder = tempdir().unwrap();
+    written(folder.path(), "p.png", &rgb_png(&ColorProfile::new_display_p3()));
+    let mut inks = ColorProfile::new_display_p3().encode().unwrap();
+    inks[16..20].copy_from_slice(b"CMYK");
+    written(folder.path(), "u.png", &png(&inks, &codes(), ExtendedColorType::Rgb8));
+    let new = |file: &str| {
+        let ran =
+            moire().current_dir(folder.path()).args(["new", "quad", "--force", "-t", file]).output().unwrap();
+        assert!(ran.status.success());
+        let text = fs::read_to_string(folder.path().join("quad.toml")).unwrap();
+        (text, String::from_utf8(ran.stderr).unwrap())
+    };
+    let (text, said) = new("p.png");
+    assert!(text.contains("converted from ") && !said.contains("profile"), "{text}{said}");
+    let (text, said) = new("u.png");
+    assert!(!text.contains("converted") && said.contains("printing inks"), "{text}{said}");
+}

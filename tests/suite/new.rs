@@ -89,6 +89,29 @@ fn what_is_chosen_follows_the_file_and_is_said() {
     assert_eq!(([quad.width, quad.height], quad.samplers[0].address), ([64, 32], [Address::ClampToEdge; 2]));
 }
 
+/// A set repeats where all its maps do, and a map of normals is never mirrored.
+#[test]
+fn addresses_follow_all_maps_of_a_set() {
+    let folder = tempdir().unwrap();
+    let tiling = |x: u32, y: u32| [wave(x, 64), wave(y, 64), 0.2];
+    let ramp = |_: u32, y: u32| [y as f32 / 64.0; 3];
+    let flat = |_: u32, _: u32| [0.2140, 0.2140, 1.0];
+    picture(&folder, "a_albedo.png", [64, 64], tiling);
+    picture(&folder, "a_height.png", [64, 64], ramp);
+    picture(&folder, "b_albedo.png", [64, 64], ramp);
+    picture(&folder, "b_normal.png", [64, 64], flat);
+    let of = |files: [&str; 2]| {
+        let scene = made(&folder, &["ball", "--force", "-t", files[0], "-t", files[1]], "ball.toml");
+        let text = fs::read_to_string(folder.path().join("ball.toml")).unwrap();
+        (scene.samplers[0].address, text)
+    };
+    let (address, _) = of(["a_albedo.png", "a_height.png"]);
+    assert_eq!(address, [Address::Repeat, Address::MirroredRepeat], "the heights do not tile");
+    let (address, text) = of(["b_albedo.png", "b_normal.png"]);
+    assert_eq!(address, [Address::Repeat; 2]);
+    assert!(text.contains("inside out"), "{text}");
+}
+
 #[test]
 fn a_set_is_recognised_by_names_and_what_has_no_map_is_left_out() {
     let folder = tempdir().unwrap();

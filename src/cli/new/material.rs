@@ -63,6 +63,17 @@ impl MaterialWriter<'_> {
         Ok(text)
     }
 
+    /// Returns whether opposite borders fit together in all maps. A map that does not tell follows the others.
+    fn tiles(&self) -> [bool; 2] {
+        let s = self.surface;
+        let maps = [&s.color, &s.normal, &s.packed, &s.roughness, &s.height, &s.occlusion, &s.emission];
+        let maps: Vec<&Photo> = maps.into_iter().flatten().collect();
+        [0, 1].map(|axis| {
+            let told: Vec<bool> = maps.iter().filter_map(|photo| photo.tiles[axis]).collect();
+            told.iter().all(|tiles| *tiles) && (maps.is_empty() || !told.is_empty())
+        })
+    }
+
     /// Returns sampler and material; nothing for a model that keeps its own.
     pub fn material(&self) -> String {
         let surface = self.surface;
@@ -133,14 +144,14 @@ impl MaterialWriter<'_> {
     }
 
     fn sampler(&self) -> String {
-        // Of a set without colours any map tells how its texels go on.
-        let s = self.surface;
-        let maps = [&s.color, &s.normal, &s.packed, &s.roughness, &s.height, &s.emission];
-        let tiles = maps.into_iter().flatten().next().map_or([true; 2], |photo| photo.tiles);
-        let (address, why) = match (self.kind, tiles) {
+        let (address, why) = match (self.kind, self.tiles()) {
             (Kind::Quad, _) => ("\"clamp-to-edge\"".to_owned(), "the picture is shown once"),
             (Kind::Model, _) => ("\"repeat\"".to_owned(), "as models take it"),
             (_, [true, true]) => ("\"repeat\"".to_owned(), "opposite borders fit together"),
+            (_, _) if self.surface.normal.is_some() => (
+                "\"repeat\"".to_owned(),
+                "borders differ, but mirrored copies would turn the relief inside out",
+            ),
             (_, [false, false]) => {
                 ("\"mirrored-repeat\"".to_owned(), "opposite borders differ: this shows no seam")
             }

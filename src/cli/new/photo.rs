@@ -42,7 +42,8 @@ pub(super) struct Photo {
     /// True of a file whose colours are multiplied by its alpha.
     pub is_premultiplied: bool,
     /// Whether opposite borders fit together, left to right and top to bottom.
-    pub tiles: [bool; 2],
+    /// `None` where it cannot be told.
+    pub tiles: [Option<bool>; 2],
     /// The means of the channels, as stored; the last of four is alpha.
     pub means: Vec<f64>,
     pub is_grey: bool,
@@ -107,7 +108,7 @@ impl Photo {
             mask,
             // All OpenEXR files are so, by its specification.
             is_premultiplied: mask.is_some() && is_premultiplied,
-            tiles: [&along_u.u.seam, &along_v.v.seam].map(|seam| seam.tiles() == Some(true)),
+            tiles: [&along_u.u.seam, &along_v.v.seam].map(|seam| seam.tiles()),
             means: along_u.channels.iter().map(|channel| channel.mean.unwrap_or(0.5)).collect(),
             is_grey: !is_float && normals.is_none(),
             is_normals,
