@@ -12,7 +12,6 @@ use super::account;
 use super::layers::Wanted;
 use super::outputs::{Outputs, check_distinct, default_name};
 use super::progress::Bar;
-use super::record::Record;
 pub use super::render_args::RenderArgs;
 use super::replay::{self, Replay};
 use super::report;
@@ -173,10 +172,8 @@ impl<'a> Job<'a> {
 
         let clock = Instant::now();
         let settings = args.overrides.report(&scene, args.crop, args.keep_everything);
-        let record = (!args.no_metadata).then(|| {
-            let options = replay::recorded_options(self.matches);
-            Record::new(&self.path.to_string_lossy(), file, options, &ran.device, settings.clone()).text()
-        });
+        let record = (!args.no_metadata)
+            .then(|| replay::record_of(args, self.matches, (self.path, file), &scene, &ran.device).text());
         let write = WriteOptions { record: record.as_deref(), ..write };
         wanted.write(outputs, &ran.film, &layers, &scene, &write)?;
         ran.report.seconds.write = clock.elapsed().as_secs_f64();

@@ -28,7 +28,7 @@ pub struct Replay<'a> {
 }
 
 /// Returns the command that parses the arguments of `moire render`.
-fn command() -> CommandLine {
+pub fn command() -> CommandLine {
     RenderArgs::augment_args(CommandLine::new("moire render"))
 }
 
@@ -45,8 +45,20 @@ fn decides_pixels(id: &str) -> bool {
     OWN.contains(&id) || overrides(id) || has(FileArgs::augment_args(CommandLine::new("")), id)
 }
 
+/// Returns the record of a render. `matches`: its arguments as they were typed; `scene`: as it is rendered, of a file.
+pub fn record_of(
+    args: &RenderArgs,
+    matches: &ArgMatches,
+    (path, file): (&Path, SceneFile),
+    scene: &Scene,
+    device: &str,
+) -> Record {
+    let settings = args.overrides.report(scene, args.crop, args.keep_everything);
+    Record::new(&path.to_string_lossy(), file, recorded_options(matches), device, settings)
+}
+
 /// Returns the options of a command line that a record holds.
-pub fn recorded_options(matches: &ArgMatches) -> Vec<String> {
+fn recorded_options(matches: &ArgMatches) -> Vec<String> {
     let typed = typed::options(&command(), matches).into_iter();
     typed.filter(|option| decides_pixels(&option.id)).map(|option| option.word).collect()
 }

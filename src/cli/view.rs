@@ -5,14 +5,19 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use clap::FromArgMatches;
+
 use super::display::DisplayArgs;
 use super::overrides::Overrides;
+use super::render_args::RenderArgs;
+use super::replay;
 use super::{DEVICE, REPORT};
 use crate::core::error::{Error, Result};
 use crate::gpu::DeviceSelect;
 use crate::lab::view::{Page, Settings, Source, Stop};
 use crate::render::On;
-use crate::scene::is_standard_input;
+use crate::scene::prune::prune;
+use crate::scene::{self, is_standard_input};
 
 /// Heading of the options of the server.
 const SERVE: &str = "Serve the page";
@@ -69,7 +74,7 @@ pub fn run(args: &ViewArgs) -> Result<ExitCode> {
     let display = args.display.given().into_iter().map(|(name, value)| (name.to_owned(), value));
     let options = args.overrides.options().chain(display).collect();
     let first = Settings { options, set: args.overrides.settings() };
-    let page = Page::open(source, first, &on, args.port)?;
+    let page = Page::open(source, first, &on, args.port, Box::new(record))?;
     super::print(&page.address)?;
     if !args.quiet {
         super::notify("open it in a browser of this machine; Ctrl-C ends it");
@@ -77,4 +82,17 @@ pub fn run(args: &ViewArgs) -> Result<ExitCode> {
     stop.wait();
     page.close();
     Ok(ExitCode::from(130))
+}
+
+/// Returns the record that `moire render` writes with those arguments.
+fn record(arguments: &[String], device: &str) -> Result<String> {
+    let failed = |error: clap::Error| Error::new(error.to_string());
+    let words = ["moire render"].into_iter().chain(arguments.iter().map(String::as_str));
+    let matches = replay::command().try_get_matches_from(words).map_err(failed)?;
+    let args = RenderArgs::from_arg_matches(&matches).map_err(failed)?;
+    let path = args.scene.clone().unwrap_or_default();
+    let (mut scene, file) = scene::load_recorded(&path, &args.overrides.reading(false))?;
+    args.overrides.apply(&mut scene)?;
+    prune(&mut scene);
+    Ok(replay::record_of(&args, &matches, (&path, file), &scene, device).text())
 }

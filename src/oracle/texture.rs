@@ -86,18 +86,25 @@ pub fn add_weighted(weight: f64, value: DVec4, sum: DVec4) -> DVec4 {
     sum + weighted(weight, value)
 }
 
-/// Returns a 2D texture's texel at (column, row), addressed. Across a pole of an environment the same row
-/// continues, half a turn away.
+/// Returns a 2D texture's texel at (column, row), addressed.
 pub fn flat_texel(scene: &PackedScene, image: &Texture, how: &Sampler, level: &Level, at: [i64; 2]) -> DVec4 {
-    let [mut x, mut y] = at;
     let [width, height, _] = level.size;
+    match flat_place(how, [width, height], at) {
+        Some([x, y]) => fetch_texel(scene, image, level, [x, y, 0]),
+        None => how.border.as_dvec4(),
+    }
+}
+
+/// Returns which of a 2D level's texels is at (column, row), addressed; none beyond a border. Across a pole of an
+/// environment the same row continues, half a turn away.
+pub fn flat_place(how: &Sampler, [width, height]: [i64; 2], [mut x, mut y]: [i64; 2]) -> Option<[i64; 2]> {
+    let [u, v, _] = addresses(how);
     if !how.crosses_poles {
-        return fetch_or_border(scene, image, how, level, [x, y, 0], 2);
+        return Some([addressed_texel(u, x, width)?, addressed_texel(v, y, height)?]);
     }
     if !(0..height).contains(&y) {
         x += width / 2;
         y = if y < 0 { -1 - y } else { 2 * height - 1 - y };
     }
-    let x = addressed_texel(addresses(how)[0], x, width).unwrap_or(0);
-    fetch_texel(scene, image, level, [x, y.clamp(0, height - 1), 0])
+    Some([addressed_texel(u, x, width).unwrap_or(0), y.clamp(0, height - 1)])
 }

@@ -86,12 +86,12 @@ pub fn packed_at_centres(scene: &Scene, options: &Options) -> Result<PackedScene
     Ok(load(&at_centres(scene), options, &[On::Oracle], &mut Kept::default())?.packed)
 }
 
-/// Returns the packed scene whose camera rays are those of the scene's samples, with the footprints of layers; paths end
-/// at their first hit.
-pub fn packed_for_rays(scene: &Scene, options: &Options) -> Result<PackedScene> {
+/// Returns the scene whose camera rays are those of the scene's samples, with the footprints of layers; paths end at their
+/// first hit.
+pub fn for_rays(scene: &Scene) -> Scene {
     let mut scene = lightless(scene);
     scene.sampling.quantity = Quantity::Texels;
-    Ok(load(&scene, options, &[On::Oracle], &mut Kept::default())?.packed)
+    scene
 }
 
 /// The progress of one layer after the other.

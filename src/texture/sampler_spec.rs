@@ -72,6 +72,9 @@ impl From<MipMode> for LevelUse {
 
 /// B = 0, C = ½, which interpolates.
 pub const CATMULL_ROM: [f32; 2] = [0.0, 0.5];
+/// Cubic filters by name, with B and C (Mitchell & Netravali 1988).
+pub const CUBICS: [(&str, [f32; 2]); 3] =
+    [("catmull-rom", CATMULL_ROM), ("b-spline", [1.0, 0.0]), ("mitchell", [1.0 / 3.0, 1.0 / 3.0])];
 
 impl Address {
     /// Returns the mode whose whole tiles may leave a coordinate that both modes read.

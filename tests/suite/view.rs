@@ -9,6 +9,7 @@ mod pictures;
 mod pixels;
 mod requests;
 mod texels;
+mod windows;
 
 use std::io::{Read, Write};
 use std::net::TcpStream;

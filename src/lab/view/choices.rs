@@ -9,7 +9,7 @@ use crate::output::{DisplayTransform, Gamut, ToneMap, parse_kelvin, parse_stops}
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
 use crate::scene::{MAX_RADIUS, MAX_SIZE, MAX_SPP};
-use crate::texture::sampler_spec::{Address, Filter, LevelUse, Method, TexelCenter};
+use crate::texture::sampler_spec::{Address, CUBICS, Filter, LevelUse, Method, SamplerSpec, TexelCenter};
 
 /// An option of the page.
 pub struct Choice {
@@ -33,6 +33,8 @@ pub enum Kind {
 }
 
 const BOOL: &[&str] = &["true", "false"];
+const CUBIC: &[&str] = &[CUBICS[0].0, CUBICS[1].0, CUBICS[2].0];
+const MAG: &str = "sampler.*.filter.mag";
 
 macro_rules! word {
     ($field:ident, $kind:ident) => {
@@ -112,6 +114,20 @@ pub const CHOICES: &[Choice] = &[
         kind: word!(footprint, Footprint),
     },
     Choice { name: "filter", names: Filter::NAMES, help: "of all samplers", kind: word!(filter, Filter) },
+    Choice { name: MAG, names: Filter::NAMES, help: "where a texel is wider than a pixel", kind: Kind::Set },
+    Choice {
+        name: "sampler.*.filter.min",
+        names: Filter::NAMES,
+        help: "where a pixel is wider than a texel",
+        kind: Kind::Set,
+    },
+    Choice {
+        name: "sampler.*.max_anisotropy",
+        names: &[],
+        help: "the longest footprint, in widths, that anisotropic and ewa follow: 1 to 64",
+        kind: Kind::Set,
+    },
+    Choice { name: "sampler.*.cubic", names: CUBIC, help: "which one the filter cubic is", kind: Kind::Set },
     Choice {
         name: "mip",
         names: LevelUse::NAMES,
@@ -207,7 +223,7 @@ pub fn described(own: &Scene) -> Value {
     let of = |choice: &Choice| {
         json!({
             "name": choice.name,
-            "values": choice.names,
+            "values": values(choice),
             "help": choice.help,
             "own": own_value(own, choice.name),
             "slider": slider(choice.name),
@@ -215,6 +231,12 @@ pub fn described(own: &Scene) -> Value {
         })
     };
     CHOICES.iter().map(of).collect()
+}
+
+/// Returns the values of an option that no scene refuses by themselves.
+fn values(choice: &Choice) -> Vec<&'static str> {
+    let only_minifies = |name: &str| Filter::from_name(name).is_some_and(Filter::only_minifies);
+    choice.names.iter().copied().filter(|name| choice.name != MAG || !only_minifies(name)).collect()
 }
 
 /// Returns the ends, the step and the neutral place of an option's slider; a field takes values beyond the ends, too.
@@ -246,9 +268,17 @@ fn own_value(scene: &Scene, name: &str) -> Option<String> {
         "tone-map" => display.tone_map.name().into(),
         "gamut" => display.gamut.name().into(),
         _ => {
-            let of = |sampler: &crate::texture::sampler_spec::SamplerSpec| match name {
+            let of = |sampler: &SamplerSpec| match name {
                 "filter" if sampler.mag != sampler.min => format!("{}/{}", sampler.mag, sampler.min),
                 "filter" => sampler.min.name().into(),
+                MAG => sampler.mag.name().into(),
+                "sampler.*.filter.min" => sampler.min.name().into(),
+                "sampler.*.max_anisotropy" => sampler.max_anisotropy.to_string(),
+                "sampler.*.cubic" => {
+                    let [b, c] = sampler.cubic;
+                    let named = CUBICS.iter().find(|(_, own)| *own == sampler.cubic);
+                    named.map_or_else(|| format!("[{b}, {c}]"), |(name, _)| (*name).into())
+                }
                 "mip" if sampler.stored_levels => "stored".into(),
                 "mip" => sampler.mip.name().into(),
                 "method" => sampler.method.name().into(),

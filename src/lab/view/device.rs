@@ -1,13 +1,17 @@
 //! The device, or the oracle, that renders all pictures of the page in turn, in a thread of its own. Input: the queue of
-//! refinements. Output: their pictures. A setting's scene is uploaded once, and kept while others have their turns.
+//! refinements. Output: their pictures. A setting's scene is uploaded once, and kept while others have their turns; settings
+//! that differ in their samples alone share it.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
 use super::queue::{Queue, Turn};
 use super::refinement::Refinement;
+use super::settings::Settings;
 use super::shown::Shown;
+use super::textures::Textures;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::film::Film;
 use crate::core::panics;
@@ -15,9 +19,9 @@ use crate::core::progress::Progress;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle::backend::OracleBackend;
 use crate::pack::{self, MipPlacement, PackedScene};
-use crate::render::{KeptTextures, MipChoice, On, Session, Tuning, integrator};
-use crate::scene::model::Scene;
-use crate::texture::decode::AllowedFloats;
+use crate::render::{FileStamp, MipChoice, On, Session, Tuning, integrator, stamp};
+use crate::scene::model::{Sampling, Scene};
+use crate::scene::texture_advice::of_textures;
 
 /// Scenes that are kept on the device.
 const MAX_OPEN: usize = 4;
@@ -28,11 +32,39 @@ enum Ready<'g> {
     Oracle(Box<PackedScene>),
 }
 
-/// A refinement's scene.
+/// A scene that is rendered, for one refinement or several.
 struct Open<'g> {
-    number: u64,
+    numbers: Vec<u64>,
+    origin: Origin,
     scene: Scene,
     ready: Ready<'g>,
+    /// About its textures.
+    warnings: Vec<String>,
+    /// The refinement that was rendered last is done.
+    is_over: bool,
+}
+
+/// What decides a scene on the device: all but its samples.
+#[derive(PartialEq)]
+struct Origin {
+    settings: Settings,
+    sampling: Sampling,
+    files: Vec<FileStamp>,
+}
+
+impl Origin {
+    /// Returns that of a refinement as its files are now.
+    fn now(refinement: &Refinement) -> Origin {
+        let Refinement { settings, scene, .. } = refinement;
+        let textures = scene.textures.iter().flat_map(|texture| texture.content.files());
+        let files = [&scene.path].into_iter().chain(&scene.sources).map(PathBuf::as_path).chain(textures);
+        let Sampling { pattern, spp, shared, seed, .. } = Sampling::default();
+        Origin {
+            settings: settings.without_samples(),
+            sampling: Sampling { pattern, spp, shared, seed, ..scene.sampling },
+            files: files.map(stamp).collect(),
+        }
+    }
 }
 
 /// A picture and what was measured of it.
@@ -47,11 +79,17 @@ struct Made {
 
 /// Renders what the queue has until it is stopped. Sends the device's name, or why there is none, and calls `changed`
 /// after each picture.
-pub fn work(on: &On, queue: &Queue, opened: &Sender<Result<String>>, changed: &dyn Fn()) {
+pub fn work(
+    on: &On,
+    queue: &Queue,
+    textures: &Textures,
+    opened: &Sender<Result<String>>,
+    changed: &dyn Fn(),
+) {
     let select = match on {
         On::Oracle => {
             let _ = opened.send(Ok("oracle".into()));
-            return turns(None, queue, changed);
+            return turns(None, queue, textures, changed);
         }
         On::Device(select) => select,
     };
@@ -61,18 +99,18 @@ pub fn work(on: &On, queue: &Queue, opened: &Sender<Result<String>>, changed: &d
         }
         Ok(gpu) => {
             let _ = opened.send(Ok(gpu.info().name.clone()));
-            turns(Some(&gpu), queue, changed);
+            turns(Some(&gpu), queue, textures, changed);
             drop(gpu);
-            again(select, queue, changed);
+            again(select, queue, textures, changed);
         }
     }
 }
 
 /// Goes on with the device opened anew, if it was lost.
-fn again(select: &DeviceSelect, queue: &Queue, changed: &dyn Fn()) {
+fn again(select: &DeviceSelect, queue: &Queue, textures: &Textures, changed: &dyn Fn()) {
     while !queue.is_stopped() {
         match Gpu::open(select) {
-            Ok(gpu) => turns(Some(&gpu), queue, changed),
+            Ok(gpu) => turns(Some(&gpu), queue, textures, changed),
             Err(error) => {
                 let Some(refinement) = queue.take() else { return };
                 refinement.fail(told(&error));
@@ -83,14 +121,12 @@ fn again(select: &DeviceSelect, queue: &Queue, changed: &dyn Fn()) {
 }
 
 /// Gives refinements their turns until the queue is stopped or the device is lost.
-fn turns(gpu: Option<&Gpu>, queue: &Queue, changed: &dyn Fn()) {
+fn turns(gpu: Option<&Gpu>, queue: &Queue, textures: &Textures, changed: &dyn Fn()) {
     let mut open: Vec<Open<'_>> = Vec::new();
-    // Settings of one scene mostly read the same textures.
-    let mut kept = KeptTextures::of_last_scene();
     while let Some(refinement) = queue.take() {
         let Some(count) = refinement.next() else { continue };
         let turn = Turn { queue, refinement: &refinement, count };
-        let made = panics::contain(&"rendering", || step(gpu, &mut open, &mut kept, &refinement, &turn));
+        let made = panics::contain(&"rendering", || step(gpu, &mut open, textures, &refinement, &turn));
         match made {
             Ok(()) | Err(Error::Interrupted) => {}
             Err(error) => {
@@ -101,8 +137,8 @@ fn turns(gpu: Option<&Gpu>, queue: &Queue, changed: &dyn Fn()) {
                 }
             }
         }
-        if refinement.next().is_none() {
-            open.retain(|own| own.number != refinement.number);
+        if let Some(own) = open.iter_mut().find(|own| own.numbers.contains(&refinement.number)) {
+            own.is_over = refinement.next().is_none();
         }
         changed();
         queue.push(refinement);
@@ -121,22 +157,31 @@ pub fn told(error: &Error) -> String {
 fn step<'g>(
     gpu: Option<&'g Gpu>,
     open: &mut Vec<Open<'g>>,
-    kept: &mut KeptTextures,
+    textures: &Textures,
     refinement: &Arc<Refinement>,
     turn: &Turn<'_>,
 ) -> Result<()> {
-    let at = match open.iter().position(|own| own.number == refinement.number) {
+    let at = match open.iter().position(|own| own.numbers.contains(&refinement.number)) {
         Some(at) => at,
         None => {
-            // The one that was rendered longest ago makes room.
-            open.truncate(MAX_OPEN - 1);
-            let (opened, warnings) = open_scene(gpu, kept, refinement)?;
-            refinement.warn(warnings);
-            open.insert(0, opened);
-            0
+            let origin = Origin::now(refinement);
+            let at = open.iter().position(|own| own.origin == origin).map_or_else(
+                || {
+                    // What is done makes room, and what was rendered longest ago.
+                    open.retain(|own| !own.is_over);
+                    open.truncate(MAX_OPEN - 1);
+                    open.insert(0, open_scene(gpu, textures, refinement, origin, turn)?);
+                    Ok::<usize, Error>(0)
+                },
+                Ok,
+            )?;
+            open[at].numbers.push(refinement.number);
+            refinement.warn(open[at].warnings.clone());
+            at
         }
     };
     open[..=at].rotate_right(1);
+    open[0].scene.sampling = refinement.scene.sampling;
     if turn.cancelled() {
         return Err(Error::Interrupted);
     }
@@ -146,24 +191,30 @@ fn step<'g>(
     Ok(())
 }
 
-/// Reads a scene's textures and uploads it; returns warnings about the textures, too.
+/// Reads a scene's textures and uploads it. Ends between its parts when the setting is gone meanwhile.
 fn open_scene<'g>(
     gpu: Option<&'g Gpu>,
-    kept: &mut KeptTextures,
+    textures: &Textures,
     refinement: &Refinement,
-) -> Result<(Open<'g>, Vec<String>)> {
+    origin: Origin,
+    turn: &Turn<'_>,
+) -> Result<Open<'g>> {
+    let go_on = || if turn.cancelled() { Err(Error::Interrupted) } else { Ok(()) };
     let scene = refinement.scene.clone();
-    let (textures, warnings) = kept.read(&scene, AllowedFloats::Finite)?;
+    let (textures, notes) = textures.of(&scene)?;
+    go_on()?;
+    let warnings = notes.into_iter().chain(of_textures(&scene, &textures)).collect();
     let mips = match gpu {
         Some(gpu) if pack::reads_levels(&scene) => MipChoice::Auto.mip_chains(gpu.info()),
         _ => MipPlacement::Host,
     };
     let packed = pack::pack_with(&scene, textures, None, mips)?;
+    go_on()?;
     let ready = match gpu {
         Some(gpu) => Ready::Device(Box::new(Session::open(gpu, packed, false, &Tuning::default())?)),
         None => Ready::Oracle(Box::new(packed)),
     };
-    Ok((Open { number: refinement.number, scene, ready }, warnings))
+    Ok(Open { numbers: Vec::new(), origin, scene, ready, warnings, is_over: false })
 }
 
 impl Open<'_> {

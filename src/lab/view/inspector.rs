@@ -4,18 +4,19 @@
 use glam::DVec2;
 use serde_json::{Value, json};
 
+use super::means::{Means, Part};
 use super::texel::{face, in_file, texel};
+use super::textures::Textures;
 use super::window;
 use crate::core::error::Result;
 use crate::lab::inspect::uses::name_of;
 use crate::oracle::camera::{Ray, camera_at, camera_ray};
 use crate::oracle::camera_sample::camera_sample;
 use crate::oracle::footprint::{RayDifferential, camera_differential};
-use crate::oracle::geometry::rays::{hit_surface, nearest_hit};
+use crate::oracle::pixel_filter::Place;
 use crate::oracle::quantities::{FirstHit, LookUp, Slot, first_hit};
-use crate::pack::{PackedScene, TextureKind};
-use crate::render::Options;
-use crate::render::layers::packed_for_rays;
+use crate::pack::{PackedScene, TextureKind, pack};
+use crate::render::layers::for_rays;
 use crate::scene::model::{Algorithm, Scene};
 use crate::schema::layout::NO_SHAPE;
 
@@ -26,6 +27,16 @@ const MAX_SAMPLES: u32 = 256;
 pub struct Inspector {
     scene: Scene,
     packed: PackedScene,
+    /// Means of texels that windows have shown.
+    means: Vec<(Part, Means)>,
+}
+
+/// A sample of a pixel.
+struct Sample<'a> {
+    place: Place,
+    ray: Ray,
+    /// What it meets first.
+    first: Option<FirstHit<'a>>,
 }
 
 /// Returns what a texture is read for.
@@ -43,30 +54,35 @@ fn words_of(slot: Slot) -> &'static str {
 }
 
 impl Inspector {
-    /// Reads the scene's textures.
-    pub fn new(scene: Scene) -> Result<Inspector> {
-        let packed = packed_for_rays(&scene, &Options::default())?;
-        Ok(Inspector { scene, packed })
+    /// Packs the scene with the textures of the page.
+    pub fn new(scene: Scene, textures: &Textures) -> Result<Inspector> {
+        let (textures, _) = textures.of(&scene)?;
+        let packed = pack(&for_rays(&scene), textures, None)?;
+        Ok(Inspector { scene, packed, means: Vec::new() })
     }
 
     /// Returns what a pixel with that number of samples is made of.
     pub fn told(&mut self, place: [u32; 2], count: u32) -> Result<Value> {
         self.scene.sampling.spp = count;
         self.packed.set_sampling(&self.scene);
+        let mut means = std::mem::take(&mut self.means);
         let (ray, beam) = self.centre(place);
         let first = first_hit(&self.packed, &ray, &beam, NO_SHAPE);
+        let samples = self.samples(place);
         let look_ups = match &first {
-            Some(first) => self.look_ups(first, &ray)?,
+            Some(first) => self.look_ups(first, &ray, &samples, &mut means)?,
             None => Vec::new(),
         };
-        let (samples, surfaces) = self.samples(place);
-        Ok(json!({
+        let (samples, surfaces) = self.met(&samples);
+        let told = json!({
             "place": place,
             "surface": first.as_ref().and_then(|first| self.surface(first, &ray)),
             "look_ups": look_ups,
             "samples": samples,
             "surfaces": surfaces,
-        }))
+        });
+        self.means = means;
+        Ok(told)
     }
 
     /// Returns the ray through a pixel's centre at the middle of the shutter's time, as wide as the pixel.
@@ -112,7 +128,13 @@ impl Inspector {
         }))
     }
 
-    fn look_ups(&self, first: &FirstHit<'_>, ray: &Ray) -> Result<Vec<Value>> {
+    fn look_ups(
+        &self,
+        first: &FirstHit<'_>,
+        ray: &Ray,
+        samples: &[Sample<'_>],
+        means: &mut Vec<(Part, Means)>,
+    ) -> Result<Vec<Value>> {
         let mut told = Vec::new();
         for slot in Slot::ALL {
             let Some(([texture, _], mapped)) = first.mapped(slot, &self.packed, ray) else { continue };
@@ -120,22 +142,40 @@ impl Inspector {
             let name = self.packed.texture_names.get(texture as usize);
             let use_of = words_of(slot);
             if image.kind == TextureKind::Procedural {
+                let at = |own: &Sample<'_>| {
+                    let ([read, _], mapped) = own.first.as_ref()?.mapped(slot, &self.packed, &own.ray)?;
+                    (read == texture).then(|| mapped.at.truncate())
+                };
+                let at = samples.iter().filter_map(at).collect();
                 let procedural = &self.packed.records.procedurals[image.procedural as usize];
                 told.push(json!({
                     "use": use_of,
                     "texture": name,
                     "uv": mapped.at.to_array(),
                     "change": mapped.change.map(|change| change.to_array()),
-                    "window": window::of_procedural(procedural, mapped.at, mapped.change)?,
+                    "window": window::of_procedural(procedural, mapped.at, mapped.change, at)?,
                 }));
             } else if let Some(look_up) = first.look_up(slot, &self.packed, ray) {
-                told.push(self.look_up(&look_up, use_of, name)?);
+                let at = |own: &Sample<'_>| {
+                    let read = own.first.as_ref()?.look_up(slot, &self.packed, &own.ray)?;
+                    let is_same = (read.texture, read.face) == (look_up.texture, look_up.face);
+                    is_same.then(|| read.coordinate.at.truncate())
+                };
+                let at: Vec<DVec2> = samples.iter().filter_map(at).collect();
+                let window = window::of_texels(&self.packed, &look_up, &at, means)?;
+                told.push(self.look_up(&look_up, use_of, name, window));
             }
         }
         Ok(told)
     }
 
-    fn look_up(&self, look_up: &LookUp<'_>, use_of: &str, name: Option<&String>) -> Result<Value> {
+    fn look_up(
+        &self,
+        look_up: &LookUp<'_>,
+        use_of: &str,
+        name: Option<&String>,
+        window: Option<Value>,
+    ) -> Value {
         let LookUp { image, how, coordinate, spread, .. } = look_up;
         let size = [image.size.x, image.size.y];
         let place = look_up.place();
@@ -143,7 +183,7 @@ impl Inspector {
         let source = self.scene.textures.get(look_up.texture as usize);
         let in_file = source.zip(texel.as_deref()).and_then(|(source, texel)| in_file(source, texel, size));
         let [major, minor] = [spread.major, spread.minor].map(f64::sqrt);
-        Ok(json!({
+        json!({
             "use": use_of,
             "texture": name,
             "size": size,
@@ -161,24 +201,33 @@ impl Inspector {
             "filter": (if major <= 1.0 { how.mag_filter } else { how.min_filter }).name(),
             "mip": how.mip_mode.name(),
             "address": [how.address_u.name(), how.address_v.name()],
-            "window": window::of_texels(&self.packed, look_up)?,
-        }))
+            "window": window,
+        })
     }
 
-    /// Returns the places of a pixel's samples, each with the number of what it meets first, and those surfaces.
-    fn samples(&self, place: [u32; 2]) -> (Vec<Value>, Vec<Value>) {
+    /// Returns the samples of a pixel, some of them if there are many.
+    fn samples(&self, place: [u32; 2]) -> Vec<Sample<'_>> {
         let packed = &self.packed;
+        if self.scene.sampling.algorithm == Algorithm::Cone {
+            return Vec::new();
+        }
+        let sample = |s: u32| {
+            let (path, place) = camera_sample(packed, &packed.header, place, 0, s);
+            let beam = camera_differential(&packed.header, &path.ray);
+            let first = first_hit(packed, &path.ray, &beam, NO_SHAPE);
+            Sample { place, ray: path.ray, first }
+        };
+        (0..packed.samples.min(MAX_SAMPLES)).map(sample).collect()
+    }
+
+    /// Returns the places of samples, each with the number of what it meets first, and those surfaces.
+    fn met(&self, samples: &[Sample<'_>]) -> (Vec<Value>, Vec<Value>) {
         let mut met: Vec<([u32; 2], u32)> = Vec::new();
         let mut places = Vec::new();
-        if self.scene.sampling.algorithm == Algorithm::Cone {
-            return Default::default();
-        }
-        for s in 0..packed.samples.min(MAX_SAMPLES) {
-            let (path, at) = camera_sample(packed, &packed.header, place, 0, s);
-            let hit = nearest_hit(packed, &path.ray, NO_SHAPE);
-            let material =
-                if hit.shape == NO_SHAPE { u32::MAX } else { hit_surface(packed, &path.ray, &hit).material };
-            let what = [hit.shape, material];
+        for Sample { place: at, first, .. } in samples {
+            let surface = first.as_ref().and_then(|first| Some((first.hit?.shape, first.surface.material)));
+            let (shape, material) = surface.unwrap_or((NO_SHAPE, u32::MAX));
+            let what = [shape, material];
             let number = met.iter().position(|(own, _)| *own == what).unwrap_or_else(|| {
                 met.push((what, 0));
                 met.len() - 1

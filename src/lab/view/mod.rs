@@ -7,6 +7,7 @@ mod device;
 mod files;
 mod http;
 mod inspector;
+mod means;
 mod pixel;
 mod queue;
 mod refinement;
@@ -15,6 +16,7 @@ mod settings;
 mod shown;
 mod tabs;
 mod texel;
+mod textures;
 mod window;
 
 use std::fmt::Write;
@@ -22,6 +24,7 @@ use std::sync::{Arc, mpsc};
 use std::thread::JoinHandle;
 
 pub use http::Stop;
+pub use routes::Recorder;
 pub use settings::{Settings, Source};
 
 use crate::core::error::{Error, ErrorKind, Result};
@@ -30,6 +33,7 @@ use http::Server;
 use queue::Queue;
 use routes::Routes;
 use tabs::Tabs;
+use textures::Textures;
 
 /// Samples a pixel up to which a picture refines, unless the scene or the page names more.
 const SAMPLES: u32 = 256;
@@ -46,7 +50,7 @@ pub struct Page {
 
 impl Page {
     /// Serves a scene; `port` 0 is a free one. Fails if the scene, the device or the port cannot be had.
-    pub fn open(source: Source, first: Settings, on: &On, port: u16) -> Result<Page> {
+    pub fn open(source: Source, first: Settings, on: &On, port: u16, recorder: Recorder) -> Result<Page> {
         // Refuses what is wrong before the device starts; the menus then say what the scene has without these options.
         first.load(&source, false)?;
         first.display()?;
@@ -58,17 +62,18 @@ impl Page {
         })?;
         let queue = Arc::new(Queue::default());
         let tabs = Arc::new(Tabs::new(source, first, queue.clone()));
+        let textures = Arc::new(Textures::default());
         let (sender, opened) = mpsc::channel();
         let work = {
-            let (queue, tabs, on) = (queue.clone(), tabs.clone(), on.clone());
-            move || device::work(&on, &queue, &sender, &|| tabs.notify())
+            let (queue, tabs, textures, on) = (queue.clone(), tabs.clone(), textures.clone(), on.clone());
+            move || device::work(&on, &queue, &textures, &sender, &|| tabs.notify())
         };
         let failed = |error: std::io::Error| Error::new(format!("a thread cannot be started: {error}"));
         let device = std::thread::Builder::new().name("device".into()).spawn(work).map_err(failed)?;
         let name = opened.recv().unwrap_or_else(|_| Err(Error::new("the device's thread has ended")))?;
         let token = token()?;
         let address = format!("http://127.0.0.1:{}/{token}/", server.port());
-        let routes = Routes { tabs, token, device: name, scene };
+        let routes = Routes { tabs, token, device: name, scene, textures, recorder };
         server.run(Arc::new(move |request| routes.answer(request))).map_err(failed)?;
         Ok(Page { address, queue, device })
     }

@@ -9,11 +9,12 @@ use super::inspector::Inspector;
 use super::settings::Source;
 use super::shown::Shown;
 use super::tabs::Side;
+use super::textures::Textures;
 use crate::core::error::Result;
 use crate::output::DisplayTransform;
 
 /// Returns what a pixel of a side is made of.
-pub fn pixel(side: &Side, source: &Source, place: [u32; 2]) -> Result<Value> {
+pub fn pixel(side: &Side, source: &Source, textures: &Textures, place: [u32; 2]) -> Result<Value> {
     let refinement = &side.refinement;
     let shown = refinement.shown();
     let count = shown.as_ref().map_or(1, |shown| shown.count);
@@ -25,7 +26,7 @@ pub fn pixel(side: &Side, source: &Source, place: [u32; 2]) -> Result<Value> {
             let is_same = refinement.stamp == source.stamp();
             let scene =
                 if is_same { refinement.settings.load(source, true)? } else { refinement.scene.clone() };
-            empty.insert(Inspector::new(scene)?)
+            empty.insert(Inspector::new(scene, textures)?)
         }
     };
     let mut told = inspector.told(place, count)?;

@@ -12,7 +12,9 @@ use super::device::told;
 use super::http::{Answer, Request, Response};
 use super::pixel::pixel;
 use super::settings::Settings;
+use super::shown::Shown;
 use super::tabs::{Side, Tabs};
+use super::textures::Textures;
 use crate::core::error::{Error, Result};
 use crate::scene::model::Scene;
 
@@ -32,6 +34,9 @@ const PAGE: [(&str, &str, &str); 11] = [
 ];
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
+/// Returns the record of a picture, from the arguments of `moire render` that make it and the name of what renders.
+pub type Recorder = Box<dyn Fn(&[String], &str) -> Result<String> + Send + Sync>;
+
 /// What answers requests.
 pub struct Routes {
     pub tabs: Arc<Tabs>,
@@ -41,6 +46,8 @@ pub struct Routes {
     pub device: String,
     /// The scene as its file has it, with the program's own settings.
     pub scene: Scene,
+    pub textures: Arc<Textures>,
+    pub recorder: Recorder,
 }
 
 impl Routes {
@@ -71,7 +78,9 @@ impl Routes {
             return Err(403);
         }
         let whole = |response| Ok(Answer::Whole(response));
-        match (request.method.as_str(), path) {
+        // An answer to HEAD is sent without its body.
+        let method = if request.method == "HEAD" { "GET" } else { request.method.as_str() };
+        match (method, path) {
             ("POST", "set") => whole(self.set(request)),
             ("POST", "swap") => whole(self.swap(request)),
             ("GET", "set" | "swap") | ("POST", _) => Err(405),
@@ -114,13 +123,16 @@ impl Routes {
 
     /// Changes a side's settings. What is wrong with them is an answer, as it is nothing that a browser should report.
     fn set(&self, request: &Request) -> Response {
-        let set = || -> Result<()> {
+        let set = || -> Result<u64> {
             let value: Value = serde_json::from_slice(&request.body)
                 .map_err(|error| Error::new(format!("the settings are not JSON: {error}")))?;
             let side = side_of(request).ok_or_else(|| Error::new("expected side=a or side=b"))?;
             self.tabs.set(request.value("tab").unwrap_or_default(), side, Settings::from_json(&value)?)
         };
-        Response::json(&json!({ "error": set().err().map(|error| told(&error)) }))
+        match set() {
+            Ok(number) => Response::json(&json!({ "error": null, "number": number })),
+            Err(error) => Response::json(&json!({ "error": told(&error) })),
+        }
     }
 
     /// Exchanges the sides, with their films.
@@ -133,10 +145,22 @@ impl Routes {
     fn picture(&self, request: &Request) -> std::result::Result<Response, u16> {
         let side = self.side(request)?;
         let Some(shown) = side.refinement.shown() else { return Ok(Response::nothing()) };
-        Ok(match shown.png(&side.display) {
-            Ok(png) => Response::new("image/png", png.as_slice()),
+        let png = match request.value("file") {
+            Some(_) => shown.file(&side.display, self.record(&side, &shown).as_deref()),
+            None => shown.png(&side.display).map(|png| png.to_vec()),
+        };
+        Ok(match png {
+            Ok(png) => Response::new("image/png", png),
             Err(error) => Response::refusal(500, &told(&error)),
         })
+    }
+
+    /// Returns the record of a side's picture; none if the scene file has changed since, or cannot be read.
+    fn record(&self, side: &Side, shown: &Shown) -> Option<String> {
+        let source = self.tabs.source();
+        let is_same = side.refinement.stamp == source.stamp();
+        let record = is_same.then(|| (self.recorder)(&side.arguments(source, shown.count), &self.device));
+        record?.ok()
     }
 
     fn pixel(&self, request: &Request) -> std::result::Result<Response, u16> {
@@ -146,7 +170,7 @@ impl Routes {
         if x >= side.refinement.scene.width || y >= side.refinement.scene.height {
             return Err(404);
         }
-        Ok(Response::json(&match pixel(&side, self.tabs.source(), [x, y]) {
+        Ok(Response::json(&match pixel(&side, self.tabs.source(), &self.textures, [x, y]) {
             Ok(value) => value,
             Err(error) => json!({ "error": told(&error) }),
         }))

@@ -17,6 +17,8 @@ use crate::scene::model::Scene;
 use crate::scene::prune::prune;
 use crate::scene::{Reading, Setting, advice, check_spp, load_as};
 
+/// Options that decide the samples of a film and nothing else of the scene.
+const SAMPLES_ALONE: [&str; 4] = ["pattern", "spp", "seed", "shared"];
 /// Options and settings of a side, and bytes of one.
 const MAX_COUNT: usize = 64;
 const MAX_BYTES: usize = 4096;
@@ -117,6 +119,13 @@ impl Settings {
         Settings { options, set: self.set.clone() }
     }
 
+    /// Returns those of the settings that decide more than the samples of a film.
+    pub fn without_samples(&self) -> Settings {
+        let options = self.options.iter().filter(|(name, _)| !SAMPLES_ALONE.contains(&name.as_str()));
+        let options = options.map(|(name, value)| (name.clone(), value.clone())).collect();
+        Settings { options, set: self.set.clone() }
+    }
+
     /// Reads the scene with these settings. `keeps_meshes`: for numbering what a pixel shows.
     pub fn load(&self, source: &Source, keeps_meshes: bool) -> Result<Scene> {
         let changes = self.changes()?;
@@ -141,8 +150,14 @@ impl Settings {
 
     /// Returns the command that renders the picture of a number of samples, for a shell.
     pub fn command(&self, source: &Source, count: u32) -> String {
-        let mut words = vec!["moire".to_owned(), "render".into(), quoted(&source.path.display().to_string())];
-        let mut option = |name: &str, value: &str| words.extend([format!("--{name}"), quoted(value)]);
+        let arguments = self.arguments(source, count);
+        format!("moire render {}", arguments.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "))
+    }
+
+    /// Returns the arguments of `moire render` for the picture of a number of samples.
+    pub fn arguments(&self, source: &Source, count: u32) -> Vec<String> {
+        let mut words = vec![source.path.display().to_string()];
+        let mut option = |name: &str, value: &str| words.extend([format!("--{name}"), value.to_owned()]);
         if let Some(camera) = &source.camera {
             option("camera", camera);
         }
@@ -153,7 +168,7 @@ impl Settings {
         if let Some(device) = &source.device {
             option("device", device);
         }
-        words.join(" ")
+        words
     }
 
     /// Returns the options of the command line, with that number of samples.

@@ -33,11 +33,16 @@ impl Shown {
         if let Some((_, png)) = files.iter().find(|(own, _)| own == display) {
             return Ok(png.clone());
         }
-        let options = WriteOptions { display: *display, ..WriteOptions::default() };
-        let png = Arc::new(output::to_bytes_with(&self.film, Format::Png, &options)?);
+        let png = Arc::new(self.file(display, None)?);
         files.truncate(MAX_FILES - 1);
         files.insert(0, (*display, png.clone()));
         Ok(png)
+    }
+
+    /// Returns the file that `moire render` writes with that display and a record of how it was made.
+    pub fn file(&self, display: &DisplayTransform, record: Option<&str>) -> Result<Vec<u8>> {
+        let options = WriteOptions { display: *display, record, ..WriteOptions::default() };
+        output::to_bytes_with(&self.film, Format::Png, &options)
     }
 }
 

@@ -32,6 +32,13 @@ pub struct Side {
     settings: Settings,
 }
 
+impl Side {
+    /// Returns the arguments of `moire render` for its picture of a number of samples.
+    pub fn arguments(&self, source: &Source, count: u32) -> Vec<String> {
+        self.settings.arguments(source, count)
+    }
+}
+
 /// A tab and its sides.
 struct Tab {
     name: String,
@@ -128,12 +135,12 @@ impl Tabs {
     }
 
     /// Gives a side other settings. A film that either side has is kept, and shown as they say; one that no side shows
-    /// any more is rendered no further.
-    pub fn set(&self, name: &str, side: usize, settings: Settings) -> Result<()> {
+    /// any more is rendered no further. Returns the film's number.
+    pub fn set(&self, name: &str, side: usize, settings: Settings) -> Result<u64> {
         let gone = || Error::new("this tab is not open");
         let own = self.side(name, side).ok_or_else(gone)?;
         if own.settings == settings && own.refinement.is_usable() {
-            return Ok(());
+            return Ok(own.refinement.number);
         }
         let is_new = |text: &&String| !self.first.set.contains(text);
         for text in settings.set.iter().filter(is_new) {
@@ -141,7 +148,7 @@ impl Tabs {
         }
         let (display, of_film) = (settings.display()?, settings.of_film());
         let mut resolved = None;
-        loop {
+        let number = loop {
             let mut tabs = self.tabs();
             let tab = tabs.iter_mut().find(|tab| tab.name == name).ok_or_else(gone)?;
             let films = tab.sides.iter().map(|side| &side.refinement);
@@ -160,14 +167,15 @@ impl Tabs {
                     continue;
                 }
             };
+            let number = refinement.number;
             let old = std::mem::replace(&mut tab.sides[side], Side { refinement, display, settings });
             if tab.sides.iter().all(|side| side.refinement.number != old.refinement.number) {
                 old.refinement.cancel();
             }
-            break;
-        }
+            break number;
+        };
         self.notify();
-        Ok(())
+        Ok(number)
     }
 
     /// Exchanges the sides of a tab.

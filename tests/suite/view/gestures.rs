@@ -73,6 +73,49 @@ fn two_fingers_zoom_the_picture_and_not_the_page() {
 }
 
 #[test]
+fn no_menu_of_a_wide_page_cuts_its_words() {
+    let Some((_view, mut browser, page)) = opened(1400, false) else { return };
+    // A word of each menu in its own font, and the room that it has beside the arrow.
+    let cut = "(() => { const pen = document.createElement('canvas').getContext('2d'); const found = []; \
+               for (const own of document.querySelectorAll('#menus select')) { const style = getComputedStyle(own); \
+               pen.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`; const room = own.clientWidth - \
+               parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) - 18; \
+               const words = [...own.options].map((option) => option.text).concat('(mirrored-repeat)', '(linear/anisotropic)'); \
+               for (const word of words) if (pen.measureText(word).width > room) found.push([own.dataset.option, word, room]); } \
+               return found; })()";
+    assert_eq!(browser.run(&page, cut), json!([]));
+    let options =
+        "[...document.querySelectorAll('[data-side=a][data-option]')].map((own) => own.dataset.option)";
+    let options = browser.run(&page, options).to_string();
+    for name in ["filter.mag", "filter.min", "max_anisotropy", "cubic"] {
+        assert!(options.contains(&format!("\"sampler.*.{name}\"")), "{options}");
+    }
+    let mags = "[...document.querySelector('[data-option=\"sampler.*.filter.mag\"]').options].map((own) => own.value)";
+    let mags = browser.run(&page, mags).to_string();
+    assert!(mags.contains("\"cubic\"") && !mags.contains("ewa") && !mags.contains("summed"), "{mags}");
+}
+
+#[test]
+fn settings_wait_for_the_picture_of_those_before_them() {
+    let Some((_view, mut browser, page)) = opened(1400, false) else { return };
+    // Changes come faster than pictures; each that is sent is seen, and the last one is.
+    let change = "(async () => { const old = window.fetch; let sent = 0; const seen = new Set(); \
+                  window.fetch = (at, more) => { if (more?.method === 'POST') sent += 1; return old(at, more); }; \
+                  const field = document.querySelector('[data-option=seed][data-side=a]'); \
+                  const note = () => seen.add(document.getElementById('picture').dataset.a.split('/')[0]); \
+                  for (let i = 0; i < 80; i += 1) { field.value = 100 + i; field.dispatchEvent(new Event('change')); note(); \
+                  await new Promise((done) => setTimeout(done, 10)); } \
+                  for (let i = 0; i < 400 && !document.querySelector('#commands code').textContent.includes('--seed 179'); i += 1) { \
+                  note(); await new Promise((done) => setTimeout(done, 10)); } \
+                  window.fetch = old; return [sent, seen.size, document.querySelector('#commands code').textContent]; })()";
+    let told = browser.run(&page, change);
+    assert!(told[2].as_str().unwrap().contains("--seed 179"), "{told}");
+    let [sent, seen] = [0, 1].map(|i| told[i].as_u64().unwrap());
+    assert!(sent < 60 && seen >= 3, "{told}");
+    assert!(browser.complaints.is_empty(), "{:#?}", browser.complaints);
+}
+
+#[test]
 fn the_command_is_copied_or_marked_to_be_copied() {
     let Some((view, mut browser, page)) = opened(1400, false) else { return };
     let origin = format!("http://127.0.0.1:{}", view.port);

@@ -55,6 +55,11 @@ fn pictures_are_bit_for_bit_those_of_the_command() {
             json!({ "spp": spp, "sampler.*.address": "mirrored-repeat", "size": "32x20" }),
             vec!["background.color=[0.1, 0.2, 0.9]"],
         ),
+        // Settings of samples alone share what is on the device.
+        (json!({ "spp": spp, "pattern": "sobol-owen", "seed": "5" }), vec![]),
+        (json!({ "spp": spp, "pattern": "sobol-owen", "seed": "6" }), vec![]),
+        (json!({ "spp": "9", "pattern": "grid", "shared": "true" }), vec![]),
+        (json!({ "pattern": "center" }), vec![]),
         (json!({ "algorithm": "cone" }), vec![]),
         (json!({ "spp": "4", "algorithm": "beam" }), vec![]),
         (
@@ -69,7 +74,35 @@ fn pictures_are_bit_for_bit_those_of_the_command() {
         let side = refined(&view, &mut tab, 0, options, &set);
         assert!(side["failure"].is_null(), "{side}");
         let command = side["command"].as_str().unwrap();
-        assert!(picture(&view, "a") == rendered(command, folder.path()).0, "{command}");
+        let (pixels, file) = rendered(command, folder.path());
+        assert!(picture(&view, "a") == pixels, "{command}");
+        // The file of the page says how it was made, as that of the command does.
+        assert!(view.get("picture?tab=t&side=a&file=1").body == file, "{command}");
+    }
+}
+
+#[test]
+fn a_picture_that_the_page_saves_is_rendered_again_from_its_record() {
+    let folder = tempdir().unwrap();
+    for arguments in
+        [&["--device", "oracle"][..], &["--exposure", "-0.5", "--set", "sampler.*.filter.mag=nearest"]]
+    {
+        let scene = std::path::absolute(crate::stage::path("horizon")).unwrap();
+        let view = View::of_file(&scene, &[SIZE, &["--spp", "2"], arguments].concat());
+        let mut tab = view.tab("t");
+        tab.done();
+        let page = folder.path().join("page.png");
+        let saved = view.get("picture?tab=t&side=a&file=1").body;
+        std::fs::write(&page, &saved).unwrap();
+        let again = folder.path().join("again.png");
+        let mut command = Command::new(program());
+        command.args(["render", "--from"]).arg(&page).args(["-q", "-o"]).arg(&again);
+        assert!(command.status().unwrap().success(), "{arguments:?}");
+        assert!(std::fs::read(again).unwrap() == saved, "{arguments:?}");
+        assert!(
+            view.get("picture?tab=t&side=a").body.len() < saved.len(),
+            "what is only shown carries a record"
+        );
     }
 }
 

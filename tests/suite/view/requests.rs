@@ -129,6 +129,26 @@ fn what_is_no_request_is_refused_and_the_page_goes_on() {
 }
 
 #[test]
+fn head_is_answered_like_get_without_a_body() {
+    let view = view();
+    let _tab = view.tab("t");
+    wait_for_picture(&view);
+    let (port, token) = (view.port, &view.token);
+    for path in
+        ["", "style.css", "page", "picture?tab=t&side=a", "pixel?tab=t&side=a&x=0&y=0", "nothing", "set"]
+    {
+        let head = format!("HEAD /{token}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
+        let (head, get) = (view.raw(head.as_bytes()), view.get(path));
+        assert_eq!((head.status, head.body.len()), (get.status, 0), "{path}");
+        assert_eq!(head.head, get.head, "{path}");
+        assert!(path == "set" || !get.body.is_empty(), "{path}");
+    }
+    let events = format!("HEAD /{token}/events?tab=other HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
+    let events = view.raw(events.as_bytes());
+    assert!(events.status == 200 && events.head.contains("text/event-stream") && events.body.is_empty());
+}
+
+#[test]
 fn silent_connections_hold_up_no_other() {
     let view = view();
     let silent: Vec<TcpStream> = (0..50).map(|_| view.connect()).collect();

@@ -44,11 +44,13 @@ impl Response {
         Response::refusal(status, reason(status))
     }
 
-    /// Sends the answer.
-    pub fn send(&self, stream: &mut TcpStream) -> io::Result<()> {
+    /// Sends the answer; `has_body` is false for what was asked by HEAD.
+    pub fn send(&self, stream: &mut TcpStream, has_body: bool) -> io::Result<()> {
         let mut bytes =
             head(self.status, self.kind, (self.status != 204).then_some(self.body.len())).into_bytes();
-        bytes.extend_from_slice(&self.body);
+        if has_body {
+            bytes.extend_from_slice(&self.body);
+        }
         stream.set_write_timeout(Some(PATIENCE))?;
         stream.write_all(&bytes)
     }
@@ -63,7 +65,7 @@ pub fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
 
 fn head(status: u16, kind: &str, length: Option<usize>) -> String {
     let length = length.map_or(String::new(), |length| format!("Content-Length: {length}\r\n"));
-    let allow = if status == 405 { "Allow: GET, POST\r\n" } else { "" };
+    let allow = if status == 405 { "Allow: GET, HEAD, POST\r\n" } else { "" };
     format!(
         "HTTP/1.1 {status} {}\r\nContent-Type: {kind}\r\n{length}{allow}Connection: close\r\nCache-Control: no-store\r\n\
          X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n\

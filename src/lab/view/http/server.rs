@@ -136,7 +136,7 @@ fn admit(
     let place = Place { number, open: open.clone() };
     if before >= MAX_CONNECTIONS && !open.make_room() {
         // The client may be gone already.
-        let _ = Response::of_status(503).send(&mut stream);
+        let _ = Response::of_status(503).send(&mut stream, true);
         return;
     }
     if let Ok(own) = stream.try_clone() {
@@ -158,11 +158,13 @@ fn serve(
 ) -> io::Result<()> {
     let request = Request::read(stream);
     place.open.heard(place.number);
+    let has_body = !request.as_ref().is_ok_and(|request| request.method == "HEAD");
     let response = match request {
         Ok(request) => {
             let answered: Result<Answer> = panics::contain(&"answering a request", || Ok(answer(&request)));
             match answered {
                 Ok(Answer::Whole(response)) => response,
+                Ok(Answer::Events(_)) if !has_body => return begin_events(stream),
                 Ok(Answer::Events(events)) => return send_events(stream, events),
                 Err(error) => Response::refusal(500, &error.to_string()),
             }
@@ -170,7 +172,7 @@ fn serve(
         Err(Some(status)) => Response::of_status(status),
         Err(None) => return Ok(()),
     };
-    response.send(stream)?;
+    response.send(stream, has_body)?;
     if response.status >= 400 {
         farewell(stream)?;
     }

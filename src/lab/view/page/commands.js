@@ -29,7 +29,7 @@ export class Commands {
     const isOne = a.command === b.command;
     for (const { row, key, code, copy, save, warnings, side } of this.rows) {
       const { command, spp, number, warnings: told } = state.sides[side];
-      save.href = this.address("picture", side, `&of=${number}&spp=${spp}`);
+      save.href = this.address("picture", side, `&file=1&of=${number}&spp=${spp}`);
       row.hidden = (isOne && side === 1) || (row.hidden && !command);
       // Until the first picture of new settings is there, the command of the last ones stays.
       if (row.hidden || !command) continue;

@@ -14,6 +14,9 @@ const address = (path, side, more = "") => `${path}?tab=${tab}&side=${SIDES[side
 
 /** Between two changes of the address, of which browsers take some seven a second, in milliseconds. */
 const REST = 200;
+/** For how long settings wait for the first picture of those before them, in milliseconds: one sees what each step does while
+ *  a slider moves, and what takes longer makes way. */
+const PATIENCE = 1000;
 /** After a refusal, before events are asked for again, in milliseconds. */
 const AGAIN = 2000;
 
@@ -35,7 +38,14 @@ function frame(width, height) {
   picture.setFrame(width, height);
 }
 
-/** Sends a side's settings; the newest while another is on its way. */
+/** Waits until a film of a side has a picture, or will have none. */
+async function seen(side, number) {
+  const isDue = () => state?.sides[side].number < number || (state?.sides[side].number === number && state.sides[side].spp === null && !state.sides[side].failure);
+  const end = performance.now() + PATIENCE;
+  while (isDue() && performance.now() < end) await new Promise((done) => { setTimeout(done, 15); });
+}
+
+/** Sends a side's settings; of those that come while others are on their way, the newest. */
 const sending = [null, null];
 async function send(side, settings) {
   const isFirst = sending[side] === null;
@@ -46,8 +56,9 @@ async function send(side, settings) {
     const complaint = find(`error-${SIDES[side]}`);
     try {
       const answer = await fetch(address("set", side), { method: "POST", body: JSON.stringify(now) });
-      const { error } = answer.ok ? await answer.json() : { error: `the program answered ${answer.status}` };
+      const { error, number } = answer.ok ? await answer.json() : { error: `the program answered ${answer.status}` };
       complaint.textContent = error ? `${SIDES[side].toUpperCase()}: ${error}` : "";
+      if (!error) await seen(side, number);
     } catch {
       complaint.textContent = "the program does not answer";
     }

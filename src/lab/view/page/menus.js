@@ -52,7 +52,8 @@ export class Menus {
 
   menu({ values, own }) {
     const words = values.map((value) => element("option", { value }, value));
-    return element("select", {}, element("option", { value: "" }, own === null ? "(scene's)" : `(${own})`), ...words);
+    const scenes = own === null ? "(scene's)" : `(${own})`;
+    return element("select", { title: scenes }, element("option", { value: "" }, scenes), ...words);
   }
 
   text({ name, own }) {
@@ -92,6 +93,8 @@ export class Menus {
   mark(side) {
     for (const field of this.fields[side].values()) {
       field.classList.toggle("chosen", field.value.trim() !== "");
+      // What is too long for its menu is told whole.
+      if (field.selectedOptions) field.title = field.selectedOptions[0]?.text ?? "";
       field.show?.();
     }
   }

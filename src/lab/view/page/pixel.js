@@ -18,6 +18,8 @@ export class PixelPanel {
   /** Shows the crosshair's pixel; the newest one while another is asked for. */
   async show(state, picture) {
     if (!picture.cross || !state) return;
+    // What a pixel is made of takes time, which a picture that is still to come needs more; it comes back here.
+    if (state.sides.some(({ spp, failure }) => spp === null && !failure)) return;
     this.wanted = [state, picture];
     if (this.isAsking) return;
     this.isAsking = true;
@@ -136,6 +138,7 @@ export class PixelPanel {
         rows.push(["in the file", `${tile ? `tile ${tile}, ` : ""}${texel.join(", ")} of ${of.join(" × ")}`]);
       }
       rows.push(["level", `${short(own.level, 3)} of 0 to ${own.levels - 1}`]);
+      if (own.window) rows.push(["drawn", drawnTexels(own.window)]);
       rows.push(["footprint", `${own.texels.map((value) => short(value, 3)).join(" × ")} texels`]);
       rows.push(["filter", `${own.filter}, mip ${own.mip}`], ["address", own.address.join(", ")]);
     } else {
@@ -163,8 +166,14 @@ function decoded(png) {
 
 const data = (png) => `data:image/png;base64,${png}`;
 
-/** Draws texels with the parallelogram of the pixel's footprint and the ellipse within it. */
-function footprint({ png, side, level, centre: [x, y], axes: [[ax, ay], [bx, by]] }) {
+/** Says what a pixel of a window is: a texel, or the mean of many. */
+function drawnTexels({ level, read, mean }) {
+  const texels = mean ? `each square the mean of ${mean.map((own) => short(own, 3)).join(" × ")} texels` : "texels";
+  return level === read ? `${texels} of level ${level}` : `${texels} of level ${level}, as level ${read} is too fine for a footprint so large`;
+}
+
+/** Draws texels with the parallelogram of the pixel's footprint, the ellipse within it, and the look-ups of its samples. */
+function footprint({ png, side, level, read, mean, centre: [x, y], axes: [[ax, ay], [bx, by]], samples }) {
   const corner = (s, t) => `${x + (s * ax + t * bx) / 2},${y + (s * ay + t * by) / 2}`;
   const around = Array.from({ length: 49 }, (_, i) => (i * Math.PI) / 24).map((angle) => corner(Math.cos(angle), Math.sin(angle)));
   const square = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)].join(" ");
@@ -172,7 +181,10 @@ function footprint({ png, side, level, centre: [x, y], axes: [[ax, ay], [bx, by]
     drawn("polygon", { points: square, class: name }),
     drawn("polygon", { points: around.join(" "), class: name }),
   ]);
-  const what = level === null ? "The texture around the pixel's footprint" : `Texels of level ${level} around the pixel's footprint`;
+  const r = side * 0.013 * Math.min(1, 8 / Math.sqrt(samples.length));
+  const marks = samples.map(([cx, cy]) => drawn("circle", { cx, cy, r: r.toFixed(4), class: "mark" }));
+  const of = level === null ? "The texture" : drawnTexels({ level, read, mean });
+  const what = `${of[0].toUpperCase()}${of.slice(1)}, around the pixel's footprint, with the look-ups of its samples`;
   return drawn("svg", { class: "drawing", viewBox: `0 0 ${side} ${side}`, role: "img", "aria-label": what },
-    drawn("title", {}, what), drawn("image", { href: data(png), width: side, height: side }), ...shapes);
+    drawn("title", {}, what), drawn("image", { href: data(png), width: side, height: side }), ...shapes, ...marks);
 }

@@ -12,9 +12,7 @@ use crate::scene::limits::ANISOTROPY;
 use crate::scene::model::DEFAULT;
 use crate::scene::model::{Background, Environment, EnvironmentLayout, TextureSource};
 use crate::texture::data::Dimension;
-use crate::texture::sampler_spec::{
-    Address, CATMULL_ROM, Filter, LevelUse, Method, SamplerSpec, TexelCenter,
-};
+use crate::texture::sampler_spec::{Address, CUBICS, Filter, LevelUse, Method, SamplerSpec, TexelCenter};
 
 pub(super) const SAMPLER: &[&str] = &[
     "name",
@@ -29,9 +27,6 @@ pub(super) const SAMPLER: &[&str] = &[
 ];
 pub(super) const BACKGROUND: &[&str] = &["color", "environment", "sampler", "layout", "rotate", "mirror"];
 const FILTER: &[&str] = &["mag", "min"];
-/// Cubic filters by name, with B and C (Mitchell & Netravali 1988).
-const CUBICS: [(&str, [f32; 2]); 3] =
-    [("catmull-rom", CATMULL_ROM), ("b-spline", [1.0, 0.0]), ("mitchell", [1.0 / 3.0, 1.0 / 3.0])];
 
 pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
     let mut spec = SamplerSpec::default();

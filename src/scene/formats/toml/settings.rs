@@ -12,6 +12,7 @@ use super::vocabulary::replaced_by;
 use crate::core::error::{Error, Result};
 use crate::scene::setting::{Key, Setting};
 use crate::scene::suggestion::{quoted, suggestion};
+use crate::texture::sampler_spec::Filter;
 
 /// The word for all tables of a section.
 const ALL: &str = "*";
@@ -112,6 +113,7 @@ impl<'a> Way<'_, 'a> {
     }
 
     fn set_in_value(&self, item: &mut Value<'a>, at: usize, value: &Value<'a>) -> Result<()> {
+        self.spread_filter(item, at);
         match item.get_mut() {
             DeValue::Table(table) => self.set_in_table(table, at, value),
             DeValue::Array(items) => {
@@ -135,6 +137,22 @@ impl<'a> Way<'_, 'a> {
                 Err(self.error(&self.setting.keys[at], &what, "below a value"))
             }
         }
+    }
+
+    /// Replaces a sampler's filter that is one word by the table that it stands for, as one of its keys is set.
+    fn spread_filter(&self, item: &mut Value<'a>, at: usize) {
+        let [section, _, key, _] = &self.setting.keys[..] else { return };
+        if at != 3 || section.name != "sampler" || key.name != "filter" {
+            return;
+        }
+        let span = item.span();
+        let Some(filter) = item.get_ref().as_str().and_then(Filter::from_name) else { return };
+        let (mag, min) = filter.both();
+        let table = [("mag", mag), ("min", min)].into_iter().map(|(key, filter)| {
+            let word = DeValue::String(filter.name().into());
+            (Spanned::new(span.clone(), key.into()), Spanned::new(span.clone(), word))
+        });
+        *item = Spanned::new(span.clone(), DeValue::Table(table.collect()));
     }
 
     /// Returns the items of an array that a key means: the one of that name, else of that number, or all.
