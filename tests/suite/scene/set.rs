@@ -87,6 +87,23 @@ fn items_are_found_by_name_before_number_and_a_star_is_all() {
 }
 
 #[test]
+fn one_half_of_a_filter_is_set_and_the_other_one_stays() {
+    let filters = |settings: &[&str]| {
+        set(settings).samplers.iter().map(|s| [s.mag, s.min]).collect::<Vec<_>>()
+    };
+    let [nearest, linear, ewa] = [Filter::Nearest, Filter::Linear, Filter::Ewa];
+    assert_eq!(filters(&["sampler.*.filter.min=ewa"]), [[linear, ewa], [nearest, ewa]]);
+    assert_eq!(filters(&["sampler.0.filter.mag=cubic"]), [[linear, linear], [Filter::Cubic, nearest]]);
+    let both = ["sampler.tiled.filter=ewa", "sampler.tiled.filter.mag=nearest"];
+    assert_eq!(filters(&both)[0], [nearest, ewa]);
+    assert_eq!(filters(&["sampler.0.filter=ewa", "sampler.0.filter.min=linear"])[1], [linear, linear]);
+    let wrong = refused(&["sampler.0.filter.mag=ewa"]);
+    assert!(wrong.contains("cannot magnify"), "{wrong}");
+    let wrong = refused(&["sampler.0.filter=eva", "sampler.0.filter.mag=linear"]);
+    assert!(wrong.contains("has no keys"), "{wrong}");
+}
+
+#[test]
 fn later_settings_see_what_earlier_ones_did() {
     let scene =
         set(&["sampler.tiled.name=t", "material.0.sampler=t", "sampler.t.filter=ewa", "sampling.spp=4"]);
