@@ -8,6 +8,7 @@ mod files;
 mod http;
 mod inspector;
 mod means;
+mod own_value;
 mod pixel;
 mod queue;
 mod refinement;

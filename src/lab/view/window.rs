@@ -81,8 +81,8 @@ pub fn of_texels(
     kept: &mut Vec<(Part, Means)>,
 ) -> Result<Option<Value>> {
     let LookUp { texture, image, how, coordinate, face, .. } = *look_up;
-    let offset = if how.texel_center == TexelCenter::Integer { 0.5 } else { 0.0 };
-    let in_texels = |[width, height]: [i64; 2]| {
+    let offset = DVec2::splat(if how.texel_center == TexelCenter::Integer { 0.5 } else { 0.0 });
+    let in_level = |[width, height]: [i64; 2], offset: DVec2| {
         let size = DVec2::new(width as f64, height as f64);
         let centre = coordinate.at.truncate() * size + offset;
         let axes = coordinate.change.map(|change| change.truncate() * size);
@@ -93,11 +93,16 @@ pub fn of_texels(
     let flat = |level: &Level| [level.size[0], level.size[1]];
     let level_of = |index: u32| level_at(scene, image, index);
     // Levels that the texture has are at hand.
-    let index = (read..image.levels).find(|index| fits(&in_texels(flat(&level_of(*index)))));
+    let index = (read..image.levels).find(|index| fits(&in_level(flat(&level_of(*index)), offset)));
     let index = index.unwrap_or(image.levels - 1);
     let level = level_of(index);
     let size = flat(&level);
-    if !in_texels(size).is_drawable() {
+    let in_means = |plane: [i64; 2]| {
+        let part = [0, 1].map(|axis| plane[axis] as f64 / size[axis] as f64);
+        in_level(plane, offset * DVec2::from(part))
+    };
+    let seen = in_means(size);
+    if !seen.is_drawable() {
         return Ok(None);
     }
     let slice = match image.kind {
@@ -111,15 +116,15 @@ pub fn of_texels(
     };
     let texel = |slice: i64, [x, y]: [i64; 2]| fetch_texel(scene, image, &level, [x, y, slice]).truncate();
     let plane = match slice {
-        Some(slice) if !fits(&in_texels(size)) => {
+        Some(slice) if !fits(&seen) => {
             let part = Part { texture, level: index, slice };
             let means = means(kept, part, || Means::new(size, &|at| texel(slice, at)));
-            means.planes.iter().find(|plane| fits(&in_texels(plane.size))).or(means.planes.last())
+            means.planes.iter().find(|plane| fits(&in_means(plane.size))).or(means.planes.last())
         }
         _ => None,
     };
     let shown = plane.map_or(size, |plane| plane.size);
-    let seen = in_texels(shown);
+    let seen = in_means(shown);
     // Beyond many tiles, each pixel is one mean of the whole texture.
     let unit = (seen.needed() / SIDES[1]).max(1.0);
     let side = seen.needed().clamp(SIDES[0], SIDES[1]).ceil();

@@ -88,9 +88,8 @@ fn items_are_found_by_name_before_number_and_a_star_is_all() {
 
 #[test]
 fn one_half_of_a_filter_is_set_and_the_other_one_stays() {
-    let filters = |settings: &[&str]| {
-        set(settings).samplers.iter().map(|s| [s.mag, s.min]).collect::<Vec<_>>()
-    };
+    let filters =
+        |settings: &[&str]| set(settings).samplers.iter().map(|s| [s.mag, s.min]).collect::<Vec<_>>();
     let [nearest, linear, ewa] = [Filter::Nearest, Filter::Linear, Filter::Ewa];
     assert_eq!(filters(&["sampler.*.filter.min=ewa"]), [[linear, ewa], [nearest, ewa]]);
     assert_eq!(filters(&["sampler.0.filter.mag=cubic"]), [[linear, linear], [Filter::Cubic, nearest]]);

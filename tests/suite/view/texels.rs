@@ -9,11 +9,11 @@ use std::path::Path;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use image::{Rgb, RgbImage};
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::{TempDir, tempdir};
 
-use super::View;
 use super::pictures::picture;
+use super::{View, refined};
 use crate::stage::device_name;
 
 const SIZE: [u32; 2] = [16, 12];
@@ -200,4 +200,21 @@ fn footprints_are_the_change_from_pixel_to_pixel_for_every_filter() {
         let wide = own["texels"].as_array().unwrap();
         assert!(wide[0].as_f64() >= wide[1].as_f64() && wide[1].as_f64() > Some(0.0), "{own:.500}");
     }
+}
+
+#[test]
+fn a_file_that_has_changed_is_read_at_the_next_setting() {
+    let folder = folder();
+    let path = folder.path().join("scene.toml");
+    fs::write(&path, scene(FILE, "", TURNED, PLANE)).unwrap();
+    let view = View::of_file(&path, &["--device", &device_name(), "--spp", "1"]);
+    let mut tab = view.tab("t");
+    tab.done();
+    let before = picture(&view, "a");
+    // The samples lie in the middle of pixels whatever the seed, and what is on the device is shared.
+    refined(&view, &mut tab, 0, json!({ "spp": "1", "seed": "2" }), &[]);
+    assert!(picture(&view, "a") == before);
+    noise(13, 9, 99).save(folder.path().join("t.png")).unwrap();
+    refined(&view, &mut tab, 0, json!({ "spp": "1", "seed": "3" }), &[]);
+    assert!(picture(&view, "a") != before, "the old texture is shown");
 }
