@@ -1,5 +1,5 @@
 //! The texels of one level, averaged over boxes of growing sides: what a window shows of a part that is too large for
-//! single texels. Input: the level's texels. Output: planes of means, each of half the size of the one before.
+//! single texels. Input: the level's texels. Output: grids of means, each of half the size of the one before.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,16 +14,16 @@ pub struct Part {
 
 /// Means of the texels of a part, from halves of its size down to one.
 pub struct Means {
-    pub planes: Vec<Plane>,
+    pub grids: Vec<Grid>,
 }
 
 /// A picture of means.
-pub struct Plane {
+pub struct Grid {
     pub size: [i64; 2],
     colors: Vec<DVec3>,
 }
 
-impl Plane {
+impl Grid {
     pub fn at(&self, [x, y]: [i64; 2]) -> DVec3 {
         self.colors[(y * self.size[0] + x) as usize]
     }
@@ -32,16 +32,16 @@ impl Plane {
 impl Means {
     /// Averages texels, each by its column and row.
     pub fn new(size: [i64; 2], texel: &(dyn Fn([i64; 2]) -> DVec3 + Sync)) -> Means {
-        let mut planes = vec![halved(size, texel)];
-        while let Some(last) = planes.last().filter(|last| last.size != [1, 1]) {
+        let mut grids = vec![halved(size, texel)];
+        while let Some(last) = grids.last().filter(|last| last.size != [1, 1]) {
             let next = halved(last.size, &|at| last.at(at));
-            planes.push(next);
+            grids.push(next);
         }
-        Means { planes }
+        Means { grids }
     }
 }
 
-fn halved(size: [i64; 2], color: &(dyn Fn([i64; 2]) -> DVec3 + Sync)) -> Plane {
+fn halved(size: [i64; 2], color: &(dyn Fn([i64; 2]) -> DVec3 + Sync)) -> Grid {
     let own = size.map(|side| (side / 2).max(1));
     let mean = |x: i64, y: i64| {
         let rows = parts(size[1], own[1], y);
@@ -52,7 +52,7 @@ fn halved(size: [i64; 2], color: &(dyn Fn([i64; 2]) -> DVec3 + Sync)) -> Plane {
     };
     let rows = (0..own[1]).into_par_iter();
     let colors = rows.flat_map_iter(|y| (0..own[0]).map(move |x| mean(x, y))).collect();
-    Plane { size: own, colors }
+    Grid { size: own, colors }
 }
 
 /// Returns which of `from` texels the `i`-th of `to` equal parts covers, each with its share of the part.
@@ -77,13 +77,13 @@ mod tests {
             let count = (size[0] * size[1]) as f64;
             let all: DVec3 = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| texel([x, y]))).sum();
             let means = Means::new(size, &texel);
-            for plane in &means.planes {
-                let mean = plane.colors.iter().sum::<DVec3>() / plane.colors.len() as f64;
-                assert!((mean - all / count).length() < 1e-9, "{size:?}, {:?}", plane.size);
+            for grid in &means.grids {
+                let mean = grid.colors.iter().sum::<DVec3>() / grid.colors.len() as f64;
+                assert!((mean - all / count).length() < 1e-9, "{size:?}, {:?}", grid.size);
             }
-            assert_eq!(means.planes.last().unwrap().size, [1, 1]);
+            assert_eq!(means.grids.last().unwrap().size, [1, 1]);
         }
         let means = Means::new([4, 2], &|[x, y]| DVec3::splat((10 * y + x) as f64));
-        assert_eq!(means.planes[0].at([1, 0]), DVec3::splat((2 + 3 + 12 + 13) as f64 / 4.0));
+        assert_eq!(means.grids[0].at([1, 0]), DVec3::splat((2 + 3 + 12 + 13) as f64 / 4.0));
     }
 }

@@ -93,7 +93,7 @@ mod tests {
         let save = |value: u8, side: u32| {
             image::RgbImage::from_pixel(side, side, image::Rgb([value; 3])).save(&file).unwrap();
         };
-        let text = "[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvertical_fov = 40.0\n[[texture]]\nname = 't'\n\
+        let text = "[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\nvertical_fov = 40.0\n[image]\nwidth = 4\nheight = 4\n[[texture]]\nname = 't'\n\
                     file = 't.png'\ncolor_space = 'srgb'\n[[sampler]]\nname = 's'\nfilter = 'nearest'\n\
                     [[material]]\nname = 'm'\nmodel = 'unlit'\ntexture = 't'\nsampler = 's'\n\
                     [[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\nmaterial = 'm'\n";

@@ -97,9 +97,9 @@ pub fn of_texels(
     let index = index.unwrap_or(image.levels - 1);
     let level = level_of(index);
     let size = flat(&level);
-    let in_means = |plane: [i64; 2]| {
-        let part = [0, 1].map(|axis| plane[axis] as f64 / size[axis] as f64);
-        in_level(plane, offset * DVec2::from(part))
+    let in_means = |shown: [i64; 2]| {
+        let part = [0, 1].map(|axis| shown[axis] as f64 / size[axis] as f64);
+        in_level(shown, offset * DVec2::from(part))
     };
     let seen = in_means(size);
     if !seen.is_drawable() {
@@ -115,15 +115,15 @@ pub fn of_texels(
         TextureKind::Flat | TextureKind::Procedural => Some(0),
     };
     let texel = |slice: i64, [x, y]: [i64; 2]| fetch_texel(scene, image, &level, [x, y, slice]).truncate();
-    let plane = match slice {
+    let grid = match slice {
         Some(slice) if !fits(&seen) => {
             let part = Part { texture, level: index, slice };
             let means = means(kept, part, || Means::new(size, &|at| texel(slice, at)));
-            means.planes.iter().find(|plane| fits(&in_means(plane.size))).or(means.planes.last())
+            means.grids.iter().find(|grid| fits(&in_means(grid.size))).or(means.grids.last())
         }
         _ => None,
     };
-    let shown = plane.map_or(size, |plane| plane.size);
+    let shown = grid.map_or(size, |grid| grid.size);
     let seen = in_means(shown);
     // Beyond many tiles, each pixel is one mean of the whole texture.
     let unit = (seen.needed() / SIDES[1]).max(1.0);
@@ -135,8 +135,8 @@ pub fn of_texels(
     let color = |x: u32, y: u32| {
         let at = (corner + unit * (DVec2::new(x.into(), y.into()) + 0.5)).floor();
         let place = placed(image.kind, how, shown, [at.x as i64, at.y as i64]);
-        match (place, slice, plane) {
-            (Some(place), Some(_), Some(plane)) => plane.at(place),
+        match (place, slice, grid) {
+            (Some(place), Some(_), Some(grid)) => grid.at(place),
             (Some(place), Some(slice), None) => texel(slice, place),
             _ => how.border.as_dvec4().truncate(),
         }
@@ -146,7 +146,7 @@ pub fn of_texels(
     told["level"] = index.into();
     told["read"] = read.into();
     let box_of = |axis: usize| size[axis] as f64 / shown[axis] as f64;
-    told["mean"] = plane.map(|_| [box_of(0), box_of(1)]).into();
+    told["mean"] = grid.map(|_| [box_of(0), box_of(1)]).into();
     Ok(Some(told))
 }
 

@@ -58,7 +58,7 @@ fn pictures_are_bit_for_bit_those_of_the_command() {
         // Settings of samples alone share what is on the device.
         (json!({ "spp": spp, "pattern": "sobol-owen", "seed": "5" }), vec![]),
         (json!({ "spp": spp, "pattern": "sobol-owen", "seed": "6" }), vec![]),
-        (json!({ "spp": "9", "pattern": "grid", "shared": "true" }), vec![]),
+        (json!({ "spp": "9", "pattern": "stratified", "shared": "true" }), vec![]),
         (json!({ "pattern": "center" }), vec![]),
         (json!({ "algorithm": "cone" }), vec![]),
         (json!({ "spp": "4", "algorithm": "beam" }), vec![]),
@@ -88,7 +88,7 @@ fn a_picture_that_the_page_saves_is_rendered_again_from_its_record() {
         [&["--device", "oracle"][..], &["--exposure", "-0.5", "--set", "sampler.*.filter.mag=nearest"]]
     {
         let scene = std::path::absolute(crate::stage::path("horizon")).unwrap();
-        let view = View::of_file(&scene, &[SIZE, &["--spp", "2"], arguments].concat());
+        let view = View::of_file(&scene, &[SIZE, &["--spp", "4"], arguments].concat());
         let mut tab = view.tab("t");
         tab.done();
         let page = folder.path().join("page.png");

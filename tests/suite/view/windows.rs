@@ -86,7 +86,7 @@ fn a_wide_window_shows_means_of_the_texture_and_says_so() {
     save("u.1002.png", 150);
     let scene = folder.path().join("scene.toml");
     let text = "[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\northographic_height = 40.0\n\
-                [sampling]\npattern = 'grid'\n\
+                [image]\nwidth = 16\nheight = 12\n[sampling]\npattern = 'grid'\n\
                 [[texture]]\nname = 't'\nfile = 't.png'\ncolor_space = 'srgb'\n\
                 [[sampler]]\nname = 's'\nfilter = 'nearest'\n\
                 [[material]]\nname = 'm'\nmodel = 'unlit'\ntexture = 't'\nsampler = 's'\n\
