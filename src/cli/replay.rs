@@ -58,7 +58,7 @@ pub fn record_of(
 }
 
 /// Returns the options of a command line that a record holds.
-fn recorded_options(matches: &ArgMatches) -> Vec<String> {
+pub fn recorded_options(matches: &ArgMatches) -> Vec<String> {
     let typed = typed::options(&command(), matches).into_iter();
     typed.filter(|option| decides_pixels(&option.id)).map(|option| option.word).collect()
 }
