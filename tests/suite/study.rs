@@ -5,7 +5,9 @@ mod analysis;
 mod browser;
 mod command;
 mod files;
+mod halves;
 mod methods;
+mod own;
 mod question;
 #[cfg(unix)]
 mod resume;

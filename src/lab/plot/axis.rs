@@ -6,9 +6,6 @@ const END_GAP: f64 = 26.0;
 /// The margins of a tight axis: a part of its logarithm, and the smallest factor.
 const TIGHT_MARGIN: f64 = 0.04;
 const LEAST_MARGIN: f64 = 1.3;
-/// The largest number of tick labels on an axis.
-const MAX_LABELS: usize = 10;
-
 pub struct Axis {
     pub low: f64,
     pub high: f64,
@@ -72,17 +69,17 @@ impl Axis {
         self.from + (self.to - self.from) * (value - low) / (high - low)
     }
 
-    /// Returns tick positions with labels: all steps if they fit, else whole decades or, on long
+    /// Returns tick positions with at most so many labels: all steps if they fit, else whole decades or, on long
     /// axes, some of them.
-    pub fn ticks(&self) -> Vec<(f64, Option<String>)> {
+    pub fn ticks(&self, most: usize) -> Vec<(f64, Option<String>)> {
         let mut all = steps(self.low, self.high);
         all.retain(|step| *step <= self.high * (1.0 + 1e-9));
-        let crowded = all.len() > MAX_LABELS;
+        let crowded = all.len() > most;
         let decade = |v: f64| (v.log10() - v.log10().round()).abs() < 1e-6;
         let decades = all.iter().filter(|v| decade(**v)).count();
-        let every = decades.div_ceil(MAX_LABELS).max(1) as i64;
+        let every = decades.div_ceil(most).max(1) as i64;
         let numbered = |v: f64| !crowded || (decade(v) && v.log10().round() as i64 % every == 0);
-        let shown = all.into_iter().filter(|v| decades <= MAX_LABELS || decade(*v));
+        let shown = all.into_iter().filter(|v| decades <= most || decade(*v));
         let mut ticks: Vec<(f64, Option<String>)> =
             shown.map(|v| (self.at(v), numbered(v).then(|| number(v)))).collect();
         ticks.extend(self.zero.map(|at| (at, Some("0".into()))));

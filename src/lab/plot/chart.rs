@@ -1,21 +1,35 @@
 //! A chart of error over time, rays or another quantity with logarithmic axes, as one SVG document:
 //! series of points with a title each, a reference level, guide lines of known slope. Several series have their names at
-//! the ends of their lines, and leading ones stand out from the rest.
+//! the ends of their lines, and leading ones stand out from the rest. A narrow chart, for a phone, has the names of the
+//! leading ones below.
 
 use super::axis::Axis;
-use super::labels::{Area, Label, area, place};
+use super::labels::{Label, Obstacles, area, place};
 use super::svg;
 
-/// The width of the document; the legend adds to its height.
-const WIDTH: f64 = 760.0;
-const PLOT: [[f64; 2]; 2] = [[78.0, 16.0], [744.0, 436.0]];
-/// The width with names beside the plot, and the plot's right end then.
-const NAMED_WIDTH: f64 = 870.0;
-const NAMED_RIGHT: f64 = 690.0;
+/// Where things are in the document.
+struct Layout {
+    width: f64,
+    /// The upper left and the lower right end of the plot.
+    plot: [[f64; 2]; 2],
+    /// The largest numbers of labels along x and y.
+    labels: [usize; 2],
+    /// The left end of the y axis's name.
+    y_name: f64,
+}
+
+const ALONE: Layout =
+    Layout { width: 760.0, plot: [[78.0, 16.0], [744.0, 436.0]], labels: [10, 10], y_name: 18.0 };
+/// With names beside the plot.
+const NAMED: Layout = Layout { width: 870.0, plot: [[78.0, 16.0], [690.0, 436.0]], ..ALONE };
+const NARROW: Layout =
+    Layout { width: 350.0, plot: [[62.0, 10.0], [340.0, 330.0]], labels: [5, 10], y_name: 14.0 };
+/// The height of a name below a narrow plot.
+const KEY_ROW: f64 = 20.0;
 /// A level this far below all points is left out: it would leave half of the plot empty.
 const FAR_LEVEL: f64 = 4.0;
-/// Where along a guide its name stands.
-const GUIDE_NAME: f64 = 0.55;
+/// Where along a guide its name may stand: away from the right end, where lines have their names.
+const GUIDE_NAMES: [f64; 13] = [0.55, 0.5, 0.6, 0.45, 0.65, 0.4, 0.7, 0.35, 0.3, 0.75, 0.25, 0.8, 0.15];
 /// Half of a mark's side, with some air.
 const MARK: f64 = 6.0;
 
@@ -84,8 +98,26 @@ pub struct Chart<'a> {
 }
 
 impl Chart<'_> {
+    /// Returns the document.
     pub fn svg(&self) -> String {
-        let [[left, top], [right, bottom]] = self.plot();
+        let layout = if self.is_named() { NAMED } else { ALONE };
+        let (body, obstacles, [x, y]) = self.body(&layout);
+        let names = if self.is_named() { self.names(&layout, [&x, &y], obstacles) } else { String::new() };
+        let size = [layout.width, layout.plot[1][1] + 58.0];
+        svg::document(self.id, size, &self.title, &self.description, &(body + &names))
+    }
+
+    /// Returns the document as narrow as a phone.
+    pub fn narrow_svg(&self) -> String {
+        let (body, ..) = self.body(&NARROW);
+        let (key, height) = self.key(NARROW.plot[1][1] + 66.0);
+        let id = format!("{}-narrow", self.id);
+        svg::document(&id, [NARROW.width, height], &self.title, &self.description, &(body + &key))
+    }
+
+    /// Returns all but the names, what names should keep off, and the axes.
+    fn body(&self, layout: &Layout) -> (String, Obstacles, [Axis; 2]) {
+        let [[left, top], [right, bottom]] = layout.plot;
         let points = || self.series.iter().flat_map(|s| &s.points);
         let level = self.level.filter(|level| self.is_near(level.0));
         let values = points().map(|p| p[1]).chain(level.map(|l| l.0));
@@ -94,16 +126,20 @@ impl Chart<'_> {
         } else {
             [Axis::new(points().map(|p| p[0]), left, right), Axis::new(values, bottom, top)]
         };
-        let mut body = self.axes(&x, &y);
-        let (guides, mut taken) = self.guide_lines(&x, &y);
-        body += &guides;
+        let mut body = self.axes(layout, &x, &y);
+        let mut obstacles = self.obstacles(&x, &y);
+        let mut names = String::new();
         if let Some((value, name)) = level
             && let Some(at) = y.position(value)
         {
             body += &svg::line([left, at], [right, at], "level");
-            body += &svg::text(left + 8.0, at - 5.0, "start", "small", name);
-            taken.push(area([left + 8.0, at - 9.0], name));
+            names += &svg::text(left + 8.0, at - 5.0, "start", "small name", name);
+            obstacles.marks.push(area([left + 8.0, at - 9.0], name));
+            obstacles.add_line([left, at], [right, at]);
         }
+        let (guides, of_guides) = self.guide_lines(&x, &y, &mut obstacles);
+        body += &guides;
+        names += &of_guides;
         // Leading ones lie above the others.
         let is_other = |series: &Series| series.role == Role::Other;
         for others in [true, false] {
@@ -111,27 +147,25 @@ impl Chart<'_> {
                 body += &drawn(series, &x, &y);
             }
         }
-        if self.is_named() {
-            let body = body + &self.names(&x, &y, taken);
-            return svg::document(
-                self.id,
-                [NAMED_WIDTH, bottom + 58.0],
-                &self.title,
-                &self.description,
-                &body,
-            );
+        (body + &names, obstacles, [x, y])
+    }
+
+    /// Returns the marks and lines of all series.
+    fn obstacles(&self, x: &Axis, y: &Axis) -> Obstacles {
+        let mut obstacles = Obstacles::default();
+        for series in &self.series {
+            let placed = |p: &[f64; 2]| Some([x.position(p[0])?, y.position(p[1])?]);
+            let places: Vec<[f64; 2]> = series.points.iter().filter_map(placed).collect();
+            places.windows(2).for_each(|pair| obstacles.add_line(pair[0], pair[1]));
+            let mark = |[px, py]: &[f64; 2]| [px - MARK, py - MARK, px + MARK, py + MARK];
+            obstacles.marks.extend(places.iter().map(mark));
         }
-        svg::document(self.id, [WIDTH, bottom + 58.0], &self.title, &self.description, &body)
+        obstacles
     }
 
     /// Returns true if series are named at their ends.
     fn is_named(&self) -> bool {
         self.series.iter().any(|series| series.role != Role::Alone)
-    }
-
-    fn plot(&self) -> [[f64; 2]; 2] {
-        let [from, [right, bottom]] = PLOT;
-        [from, [if self.is_named() { NAMED_RIGHT } else { right }, bottom]]
     }
 
     fn is_near(&self, level: f64) -> bool {
@@ -140,7 +174,7 @@ impl Chart<'_> {
     }
 
     /// Returns the names at the ends of lines, those of leading series first; each switches its series.
-    fn names(&self, x: &Axis, y: &Axis, mut taken: Vec<Area>) -> String {
+    fn names(&self, layout: &Layout, [x, y]: [&Axis; 2], obstacles: Obstacles) -> String {
         let mut order: Vec<&Series> = self.series.iter().collect();
         order.sort_by_key(|series| series.role == Role::Other);
         let placed = |p: &[f64; 2]| Some([x.position(p[0])?, y.position(p[1])?]);
@@ -152,10 +186,8 @@ impl Chart<'_> {
             order.into_iter().filter_map(|series| Some((series, end(series)?))).collect();
         let labels: Vec<Label<'_>> =
             named.iter().map(|(s, end)| Label { text: &s.name, end: *end }).collect();
-        let marks = self.series.iter().flat_map(|series| &series.points).filter_map(placed);
-        taken.extend(marks.map(|[px, py]| [px - MARK, py - MARK, px + MARK, py + MARK]));
-        let [[left, top], [_, bottom]] = self.plot();
-        let places = place(&labels, [left, top, NAMED_WIDTH - 4.0, bottom], &taken);
+        let [[left, top], [_, bottom]] = layout.plot;
+        let places = place(&labels, [left, top, layout.width - 4.0, bottom], &obstacles);
         let mut out = String::new();
         for ((series, end), placed) in named.iter().zip(places) {
             let [px, py] = placed.at;
@@ -168,16 +200,40 @@ impl Chart<'_> {
         out
     }
 
-    fn axes(&self, x: &Axis, y: &Axis) -> String {
-        let [[left, top], [right, bottom]] = self.plot();
+    /// Returns the leading names in rows from a height on, and the height of the document.
+    fn key(&self, top: f64) -> (String, f64) {
         let mut out = String::new();
-        for (at, number) in x.ticks() {
+        let mut y = top;
+        let mut leading: Vec<&Series> = self.series.iter().filter(|s| s.role != Role::Other).collect();
+        leading.sort_by_key(|series| series.look()[0]);
+        for series in &leading {
+            let mark = svg::marker(series.look(), [18.0, y - 4.0], series.radius(), "");
+            let class = format!("small t{}{}", series.look()[0], series.weight());
+            let text = svg::text(30.0, y, "start", &class, &series.name);
+            let name = svg::escape(&series.name);
+            out += &format!("<g class=\"key series\" data-series=\"{name}\">{mark}{text}</g>\n");
+            y += KEY_ROW;
+        }
+        if leading.len() < self.series.len() {
+            let others =
+                format!("grey: {} others, named in the wide plot", self.series.len() - leading.len());
+            out += &svg::text(30.0, y, "start", "small", &others);
+            y += KEY_ROW;
+        }
+        (out, y)
+    }
+
+    fn axes(&self, layout: &Layout, x: &Axis, y: &Axis) -> String {
+        let [[left, top], [right, bottom]] = layout.plot;
+        let [along_x, along_y] = layout.labels;
+        let mut out = String::new();
+        for (at, number) in x.ticks(along_x) {
             out += &svg::line([at, top], [at, bottom], "grid");
             if let Some(number) = number {
                 out += &svg::text(at, bottom + 18.0, "middle", "small", &number);
             }
         }
-        for (at, number) in y.ticks() {
+        for (at, number) in y.ticks(along_y) {
             out += &svg::line([left, at], [right, at], "grid");
             if let Some(number) = number {
                 out += &svg::text(left - 7.0, at + 4.0, "end", "small", &number);
@@ -197,27 +253,31 @@ impl Chart<'_> {
         out += &svg::text(0.5 * (left + right), bottom + 40.0, "middle", "", self.x_label);
         let middle = 0.5 * (top + bottom);
         out + &format!(
-            "<text transform=\"translate(18 {middle}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+            "<text transform=\"translate({} {middle}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+            layout.y_name,
             svg::escape(self.y_label)
         )
     }
 
-    /// Draws the guides from the plot's upper left downwards, as far as the frame extends.
-    fn guide_lines(&self, x: &Axis, y: &Axis) -> (String, Vec<Area>) {
-        let (mut out, mut taken) = (String::new(), Vec::new());
+    /// Draws the guides from the plot's upper left downwards, as far as the frame extends; their names, which keep off marks
+    /// and lines where they can, are to be drawn above all else.
+    fn guide_lines(&self, x: &Axis, y: &Axis, obstacles: &mut Obstacles) -> (String, String) {
+        let (mut lines, mut names) = (String::new(), String::new());
         let start = (y.high / y.low).powf(0.93) * y.low;
         for (slope, name) in &self.guides {
             let reach = (y.low / start).powf(1.0 / slope);
             let end = x.high.min(x.low * reach);
             let at = |v: f64| [x.at(v), y.at(start * (v / x.low).powf(*slope))];
-            out += &svg::line(at(x.low), at(end), "guide");
-            // Away from the right end, where lines have their names.
-            let [px, py] = at(x.low * (end / x.low).powf(GUIDE_NAME));
-            out += &svg::text(px, py + 4.0, "middle", "small name", name);
+            lines += &svg::line(at(x.low), at(end), "guide");
             let half = area([0.0, 0.0], name)[2] / 2.0;
-            taken.push(area([px - half, py], name));
+            let own = |[px, py]: [f64; 2]| area([px - half, py], name);
+            let places = GUIDE_NAMES.map(|part| at(x.low * (end / x.low).powf(part)));
+            let cost = |place: &[f64; 2]| obstacles.cost(&own(*place));
+            let Some(place) = places.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))) else { continue };
+            names += &svg::text(place[0], place[1] + 4.0, "middle", "small name", name);
+            obstacles.marks.push(own(place));
         }
-        (out, taken)
+        (lines, names)
     }
 }
 

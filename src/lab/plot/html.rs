@@ -184,7 +184,7 @@ fn bare_table(caption: &str, head: &[&str], rows: &[Vec<Html>]) -> Html {
     };
     let rows: Html = rows.iter().map(row).collect();
     html!(
-        "<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
+        "<table>\n<caption><span>{}</span></caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
         caption,
         head,
         rows

@@ -20,7 +20,7 @@ font:14px system-ui,sans-serif}\
 .plot .series path.lead{stroke-width:3.2}.plot .series path.rest{stroke-width:1;opacity:.6}\
 .plot .name{paint-order:stroke;stroke:var(--ground);stroke-width:3px;stroke-linejoin:round}\
 .plot .lead{font-weight:600}.plot .leader{stroke:var(--c6);stroke-width:.8}\
-.plot .mark{stroke-width:1.6}.plot .off{opacity:.12}.plot .key{cursor:default}";
+.plot .cut{stroke:var(--ground);stroke-width:3}.plot .mark{stroke-width:1.6}.plot .off{opacity:.12}.plot .key{cursor:default}";
 
 /// Escapes text for XML and HTML, including within double quotes.
 pub fn escape(text: &str) -> String {

@@ -8,15 +8,14 @@ use super::choice::chosen;
 pub use super::choice::{recommended, winners};
 use super::fit::{Line, least_squares};
 pub use super::fit::{median, time_to};
-use super::record::{PointRecord, Record};
+use super::record::{PointRecord, Record, ReferenceRecord};
 use super::results::Steadiness;
 pub use super::results::{Analysis, MethodSlope, Reach, RecommendedPoint, Slope};
 use super::student;
 use crate::lab::plot::axis::steps;
 
-/// Points whose error is less than this multiple of the reference's own error are biased by it and
-/// excluded from slopes.
-const FLOOR_MARGIN: f64 = 3.0;
+/// Points whose error, without the reference's own, is less than this multiple of it are excluded from slopes.
+const FLOOR_MARGIN: f64 = 1.0;
 /// The smallest number of points that define a slope.
 const MIN_SLOPE_POINTS: usize = 3;
 
@@ -30,13 +29,13 @@ pub fn analyse(record: &Record) -> Analysis {
         MethodSlope {
             method: m.name.clone(),
             fitted: slope(&points, floor),
-            interval: noise_interval(&record.points_of(&m.name).collect::<Vec<_>>(), floor),
+            interval: noise_interval(&record.points_of(&m.name).collect::<Vec<_>>(), &record.reference),
             theory: theory.to_vec(),
             theory_text: text.to_owned(),
         }
     };
     let slopes: Vec<MethodSlope> = record.methods.iter().map(slope).collect();
-    let winners = winners(&record.points, &slopes);
+    let winners = winners(&record.points, &slopes, &record.reference);
     let best = chosen(record, &winners);
     Analysis {
         recommendation: advice(record, &winners),
@@ -65,10 +64,13 @@ fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
     }
 }
 
-/// Fits (rays, RMSE); the slope is that of the variance, RMSE².
+/// Fits (rays, RMSE); the slope is that of the variance, RMSE², without that of the reference, whose RMSE is `floor`.
 pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
-    let logs: Vec<(f64, f64)> =
-        points.iter().filter(|p| is_above_floor(p.1, floor)).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
+    let logs: Vec<(f64, f64)> = points
+        .iter()
+        .filter(|p| is_above_floor(p.1, floor))
+        .map(|p| (p.0.ln(), (p.1 * p.1 - floor * floor).ln()))
+        .collect();
     if logs.len() < MIN_SLOPE_POINTS || logs.iter().all(|p| (p.0 - logs[0].0).abs() < 1e-5) {
         return None;
     }
@@ -77,25 +79,36 @@ pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
     Some(Slope { value, half_width: (half_width > 1e-9).then_some(half_width), points: logs.len() })
 }
 
-/// Returns true if an error is due to the method and not to the reference.
+/// Returns true if an error is due to the method more than to the reference.
 fn is_above_floor(rmse: f64, floor: f64) -> bool {
-    rmse > FLOOR_MARGIN * floor && rmse > 0.0 && rmse.is_finite()
+    rmse * rmse > (1.0 + FLOOR_MARGIN * FLOOR_MARGIN) * floor * floor && rmse > 0.0 && rmse.is_finite()
 }
 
 /// Returns the uncertainty of a method's slope due to noise alone.
-fn noise_interval(points: &[&PointRecord], floor: f64) -> Option<[f64; 2]> {
+fn noise_interval(points: &[&PointRecord], reference: &ReferenceRecord) -> Option<[f64; 2]> {
+    let floor = reference.rmse.unwrap_or(0.0);
     let fair = points.iter().filter(|p| is_above_floor(p.errors.rmse, floor));
-    let points: Vec<(f64, &[f32])> = fair.map(|p| (f64::from(p.samples), p.blocks.as_slice())).collect();
+    let points: Vec<(f64, Vec<f32>)> =
+        fair.map(|p| (f64::from(p.samples), p.own_blocks(reference))).collect();
+    let points: Vec<(f64, &[f32])> = points.iter().map(|(n, blocks)| (*n, blocks.as_slice())).collect();
     interval(&points, 0.95)
 }
 
+/// Returns the times to errors that tell methods apart: below what each method's first point errs by, and not below the
+/// reference's own error.
 fn reach(record: &Record) -> Reach {
-    let errors = || record.points.iter().map(|p| p.errors.rmse).filter(|e| *e > 0.0 && e.is_finite());
-    let mut levels = steps(errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
+    let floor = record.reference.rmse.unwrap_or(0.0);
+    let usable = |p: &&PointRecord| p.errors.rmse > 0.0 && p.errors.rmse.is_finite();
+    let least = record.points.iter().filter(usable).map(|p| p.own().rmse.max(floor));
+    let least = least.filter(|e| *e > 0.0).fold(f64::INFINITY, f64::min);
+    let first = record.methods.iter().filter_map(|m| record.points_of(&m.name).find(usable));
+    let most = first.map(|p| p.own().rmse).fold(0.0, f64::max);
+    let mut levels = steps(least, most);
+    levels.retain(|level| *level < most);
     levels.reverse();
     let times = |m: &super::record::MethodRecord| {
         let curve: Vec<(f64, f64)> =
-            record.points_of(&m.name).map(|p| (p.median_seconds(), p.errors.rmse)).collect();
+            record.points_of(&m.name).map(|p| (p.median_seconds(), p.own().rmse)).collect();
         (m.name.clone(), levels.iter().map(|level| time_to(&curve, *level)).collect())
     };
     Reach { methods: record.methods.iter().map(times).collect(), errors: levels }

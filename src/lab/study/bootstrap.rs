@@ -52,6 +52,17 @@ pub fn ratio(a: &[f32], b: &[f32], confidence: f64) -> Option<[f64; 2]> {
     Some(central_part(&ratios, confidence))
 }
 
+/// Returns the interval of the sum of parts, some of which may be below 0. `None` without three of them.
+pub fn sum(blocks: &[f32], confidence: f64) -> Option<[f64; 2]> {
+    if blocks.len() < 3 {
+        return None;
+    }
+    let of = |draw| resample(blocks.len(), draw).into_iter().map(|i| f64::from(blocks[i])).sum();
+    let mut sums: Vec<f64> = (0..DRAWS).map(of).collect();
+    sums.sort_by(f64::total_cmp);
+    Some(central_part(&sums, confidence))
+}
+
 /// Returns the indices of one resample, as many as there are blocks.
 fn resample(count: usize, draw: u32) -> Vec<usize> {
     (0..count).map(|k| mix_bits(mix_bits(draw) ^ k as u32) as usize % count).collect()

@@ -2,8 +2,9 @@
 //! significantly different; and one recommended point, which no other beats in both error and time.
 
 use super::bootstrap::ratio;
+use super::extrapolation::Estimate;
 use super::format::samples_taken;
-use super::record::{PointRecord, Record};
+use super::record::{PointRecord, Record, ReferenceRecord};
 use super::results::{MethodSlope, RecommendedPoint, Winner};
 use crate::lab::plot::axis::steps;
 
@@ -13,7 +14,7 @@ const SIGNIFICANT_RATIO: f64 = 2.0;
 impl RecommendedPoint {
     pub fn of(point: &PointRecord) -> RecommendedPoint {
         let (method, seconds) = (point.method.clone(), point.median_seconds());
-        RecommendedPoint { method, spp: point.spp, seconds, rmse: point.errors.rmse }
+        RecommendedPoint { method, spp: point.spp, seconds, rmse: point.own().rmse }
     }
 }
 
@@ -21,27 +22,61 @@ fn usable(points: &[PointRecord]) -> impl Iterator<Item = &PointRecord> {
     points.iter().filter(|p| p.median_seconds() > 0.0 && p.errors.rmse.is_finite())
 }
 
-pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
+/// Returns the method with the least error within each time. What is extrapolated wins only where its lead over all that
+/// was measured is larger than the uncertainty of both.
+pub fn winners(points: &[PointRecord], slopes: &[MethodSlope], reference: &ReferenceRecord) -> Vec<Winner> {
     let usable: Vec<&PointRecord> = usable(points).collect();
     let times = || usable.iter().map(|p| p.median_seconds());
     let budgets = steps(times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
     let winner = |budget: f64| {
-        let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
+        let fitting = usable.iter().copied().filter(|p| p.median_seconds() <= budget);
         let least = fitting.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
-        let estimated = slopes.iter().filter_map(|slope| extrapolated(&usable, slope, budget));
-        let estimated = estimated.min_by(|a, b| a.rmse.total_cmp(&b.rmse));
-        Some(estimated.filter(|e| e.rmse < least.errors.rmse).unwrap_or_else(|| Winner {
-            budget,
-            method: least.method.clone(),
-            ties: ties(least, &usable, budget),
-            spp: least.spp,
-            taken: samples_taken(least),
-            seconds: least.median_seconds(),
-            rmse: least.errors.rmse,
-            estimated: false,
-        }))
+        let estimated = slopes.iter().filter_map(|slope| Estimate::of(&usable, slope, budget, reference));
+        let leading: Vec<Estimate<'_>> = estimated.filter(|e| e.beats(least, reference)).collect();
+        let best = leading.iter().min_by(|a, b| a.rmse.total_cmp(&b.rmse));
+        Some(match best {
+            Some(best) => extrapolated(best, &leading, budget, reference),
+            None => measured(least, &usable, budget),
+        })
     };
     budgets.into_iter().filter_map(winner).collect()
+}
+
+fn measured(least: &PointRecord, all: &[&PointRecord], budget: f64) -> Winner {
+    let own = least.own();
+    Winner {
+        budget,
+        method: least.method.clone(),
+        ties: ties(least, all, budget),
+        spp: least.spp,
+        taken: samples_taken(least),
+        seconds: least.median_seconds(),
+        rmse: own.rmse,
+        interval: [own.low, own.high],
+        estimated: false,
+    }
+}
+
+fn extrapolated(
+    best: &Estimate<'_>,
+    all: &[Estimate<'_>],
+    budget: f64,
+    reference: &ReferenceRecord,
+) -> Winner {
+    let others = all.iter().filter(|e| e.last.method != best.last.method);
+    let ties = others.filter(|e| e.ties(best, reference)).map(|e| e.last.method.clone()).collect();
+    let taken = PointRecord { spp: best.spp, samples: best.spp, ..best.last.clone() };
+    Winner {
+        budget,
+        method: best.last.method.clone(),
+        ties,
+        spp: best.spp,
+        taken: format!("about {}", samples_taken(&taken)),
+        seconds: best.seconds,
+        rmse: best.rmse,
+        interval: best.interval(),
+        estimated: true,
+    }
 }
 
 /// Returns the methods that reach the same error in the same time within the uncertainty. A time as
@@ -70,25 +105,6 @@ pub fn not_significantly_different(a: &PointRecord, b: &PointRecord) -> bool {
     // Noise cannot explain a larger ratio, and the bootstrap is slow.
     let near = a.errors.rmse.max(b.errors.rmse) <= SIGNIFICANT_RATIO * a.errors.rmse.min(b.errors.rmse);
     near && ratio(&a.blocks, &b.blocks, 0.95).is_some_and(|[low, high]| low <= 1.0 && high >= 1.0)
-}
-
-/// Extrapolates a method with a known slope to a time longer than it was measured for.
-fn extrapolated(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
-    let own = points.iter().filter(|p| p.method == slope.method);
-    let last = own.max_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds()))?;
-    let longer = budget / last.median_seconds();
-    let law = slope.fitted.filter(|f| !slope.theory.is_empty() && f.value < 0.0)?;
-    let spp = (f64::from(last.spp) * longer) as u32;
-    (longer > 1.0).then(|| Winner {
-        budget,
-        method: slope.method.clone(),
-        ties: Vec::new(),
-        spp,
-        taken: format!("about {}", samples_taken(&PointRecord { spp, samples: spp, ..(*last).clone() })),
-        seconds: budget,
-        rmse: last.errors.rmse * longer.powf(0.5 * law.value),
-        estimated: true,
-    })
 }
 
 /// Returns the point that is recommended: what answers the question of the study, or else [`recommended`].
@@ -123,8 +139,11 @@ pub fn recommended<'a>(points: &'a [PointRecord], winners: &[Winner]) -> Option<
     };
     let front: Vec<&PointRecord> = usable(points).filter(|p| !usable(points).any(|q| beats(q, p))).collect();
     let best = |such: &dyn Fn(&PointRecord) -> bool| {
-        let own = front.iter().copied().filter(|p| such(p));
-        own.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))
+        let own = || front.iter().copied().filter(|p| such(p));
+        let least = own().min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
+        // More samples that are not known to err less are not worth their time.
+        let equal = own().filter(|p| p.method == least.method && not_significantly_different(p, least));
+        equal.min_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds())).or(Some(least))
     };
     let won = |name: &str| winners.iter().filter(|w| w.is_or_ties(name)).count();
     let on_front = winners.iter().filter(|w| front.iter().any(|p| p.method == w.method));

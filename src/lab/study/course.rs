@@ -61,6 +61,8 @@ impl Course<'_> {
         if more.is_empty() {
             return Ok(());
         }
+        // What is measured further is measured as often as the others.
+        paused.retain(|method| !more.iter().any(|point| point.method == *method));
         all.extend(more);
         self.measure(record, &all, repeats, &paused, [end, 1.0], &kept)
     }

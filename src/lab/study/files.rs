@@ -27,9 +27,9 @@ pub fn write_all(folder: &Path, record: &Record, showcase: &Showcase) -> Result<
     save(folder, record)?;
     for (name, text) in [
         ("study.csv", csv(record)),
-        ("error-time.svg", plots.time),
-        ("error-rays.svg", plots.rays),
-        ("stages.svg", plots.stages),
+        ("error-time.svg", plots.time[0].clone()),
+        ("error-rays.svg", plots.rays[0].clone()),
+        ("stages.svg", plots.stages[0].clone()),
         ("index.html", page),
     ] {
         output::write_file(&folder.join(name), text.as_bytes())?;
@@ -57,7 +57,8 @@ impl Plots {
         let guides = vec![(-0.5, "variance −1"), (-0.75, "−1.5"), (-1.0, "−2")];
         let rays = |p: &PointRecord| f64::from(p.samples);
         let rays = chart("error-rays", "Error over rays", "camera rays a pixel", &rays, guides);
-        Plots { time: time.svg(), rays: rays.svg(), stages: stages::svg(record) }
+        let both = |chart: Chart<'_>| [chart.svg(), chart.narrow_svg()];
+        Plots { time: both(time), rays: both(rays), stages: stages::svgs(record) }
     }
 }
 
@@ -104,7 +105,7 @@ fn description(record: &Record, over: &str) -> String {
 
 const COLUMNS: &str = "method,algorithm,pattern,footprint,filter,spp,rays_per_pixel,sampled,repeats,\
 render_seconds,render_seconds_min,render_seconds_max,device_seconds,pack_seconds,upload_seconds,\
-compile_seconds,readback_seconds,rmse,relative_mse,max,over_1_255,flip,command";
+compile_seconds,readback_seconds,rmse,own_rmse,own_rmse_low,own_rmse_high,relative_mse,max,over_1_255,flip,command";
 
 fn csv(record: &Record) -> String {
     let mut out = format!("{COLUMNS}\n");
@@ -133,7 +134,8 @@ fn csv(record: &Record) -> String {
                 s.compile,
                 s.readback,
             ];
-            let errors = [e.rmse, e.relative_mse, e.max, e.over_1_255, e.flip];
+            let own = p.own();
+            let errors = [e.rmse, own.rmse, own.low, own.high, e.relative_mse, e.max, e.over_1_255, e.flip];
             let numbers: Vec<String> = times.iter().chain(&errors).map(|v| format!("{v:.6e}")).collect();
             out += &format!("{words},{counts},{},{}\n", numbers.join(","), field(&p.command));
         }

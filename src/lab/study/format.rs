@@ -9,7 +9,18 @@ use crate::scene::model::Algorithm;
 /// Returns the winning method, or all that tie.
 pub fn names(record: &Record, winner: &Winner) -> String {
     let all = std::iter::once(&winner.method).chain(&winner.ties);
-    all.map(|name| record.label(name)).collect::<Vec<_>>().join(" or ")
+    listed(&all.map(|name| record.label(name)).collect::<Vec<_>>(), "or")
+}
+
+/// Returns names joined by commas and a word; in quotation marks where commas within names would run them together.
+pub fn listed(names: &[&str], word: &str) -> String {
+    let quoted = names.iter().any(|name| name.contains(','));
+    let one = |name: &&str| if quoted { format!("“{name}”") } else { String::from(*name) };
+    let all: Vec<String> = names.iter().map(one).collect();
+    match all.split_last() {
+        Some((last, first)) if !first.is_empty() => format!("{} {word} {last}", first.join(", ")),
+        _ => all.concat(),
+    }
 }
 
 /// Returns the samples per pixel of a point as text.
@@ -58,6 +69,17 @@ pub fn error(value: f64) -> String {
     format!("{value:.2e}").replace('-', "−")
 }
 
+/// Formats an error without the reference's own: a bound where it cannot be told from none.
+pub fn own_error(rmse: f64, [low, high]: [f64; 2]) -> String {
+    if low > 0.0 || high <= 0.0 { error(rmse) } else { format!("under {}", error(high)) }
+}
+
+/// Formats the error of a point without the reference's own.
+pub fn own_error_of(point: &PointRecord) -> String {
+    let own = point.own();
+    own_error(own.rmse, [own.low, own.high])
+}
+
 pub(super) fn significant(value: f64) -> String {
     match value {
         v if v >= 99.5 => format!("{v:.0}"),
@@ -100,6 +122,21 @@ pub fn times(point: &PointRecord) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_with_commas_are_told_apart() {
+        assert_eq!(listed(&["random"], "or"), "random");
+        assert_eq!(listed(&["random", "Halton", "grid"], "or"), "random, Halton or grid");
+        let names = ["EWA, cone footprint", "adaptive"];
+        assert_eq!(listed(&names, "and"), "“EWA, cone footprint” and “adaptive”");
+    }
+
+    #[test]
+    fn an_error_that_noise_may_have_made_is_written_as_a_bound() {
+        assert_eq!(own_error(0.01, [0.009, 0.011]), "1.00e−2");
+        assert_eq!(own_error(0.001, [0.0, 0.002]), "under 2.00e−3");
+        assert_eq!(own_error(0.0, [0.0, 0.0]), "0.000");
+    }
 
     #[test]
     fn numbers_are_written_with_three_digits_and_a_unit() {

@@ -16,7 +16,7 @@ use crate::texture::source::TextureContent;
 use super::record::Conditions;
 
 /// The version of the points' format: points of other versions lack fields that are used now.
-const FORMAT: &str = "points 2";
+const FORMAT: &str = "points 3";
 
 /// FNV-1a in 64 bits (Fowler, Noll, Vo), which is fast and stable across compiler versions;
 /// security is not a concern.

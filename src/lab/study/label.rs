@@ -21,7 +21,7 @@ pub fn setting(name: &str, value: &str) -> String {
 
 pub fn pattern(pattern: Pattern) -> &'static str {
     match pattern {
-        Pattern::Center => "pixel centers",
+        Pattern::Center => "pixel centres",
         Pattern::Grid => "regular grid",
         Pattern::Halton => "Halton",
         Pattern::SobolOwen => "Sobol-Owen",

@@ -152,6 +152,19 @@ impl Method {
         Ok(scene)
     }
 
+    /// Returns a count that the pattern takes.
+    fn least_count(&self, scene: &Scene) -> u32 {
+        let pattern = self.pattern_in(scene);
+        (1..=scene.sampling.spp).find(|&spp| check_spp(pattern, spp).is_ok()).unwrap_or(scene.sampling.spp)
+    }
+
+    /// Returns true if this method reads textures of `base` as `other` does, which is `base` by another method.
+    fn reads_alike(&self, base: &Scene, other: &Scene) -> bool {
+        self.apply(base, self.least_count(base)).is_ok_and(|own| {
+            own.samplers == other.samplers && own.sampling.footprint == other.sampling.footprint
+        })
+    }
+
     /// Only jittered strata can be the same in all pixels.
     fn shares(&self, base: &Scene) -> bool {
         base.sampling.shared && self.pattern_in(base) == Pattern::Stratified
@@ -182,33 +195,45 @@ fn with_filter(sampler: &mut SamplerSpec, filter: Filter) {
     sampler.mip = MipMode::Linear;
 }
 
-/// Returns the scene's pattern with each filter, and with the scene's own footprint if it has one.
+/// Returns the scene's pattern, and one sample in the centre, with each filter, and with the scene's own filter and
+/// footprint if it has one. What is the same picture twice is there once, by the name of its filter.
 fn filtered(scene: &Scene, notes: &mut Vec<String>) -> Vec<Method> {
-    let base = Method::of_pattern(scene.sampling.pattern);
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
     let stored = scene.textures.iter().any(|t| t.content.procedural().is_none());
-    let mut methods = Vec::new();
-    if scene.sampling.footprint != Footprint::None {
-        methods.push(Method { footprint: scene.sampling.footprint, ..base.clone() });
-    } else if procedural && !stored {
-        methods.push(Method { footprint: Footprint::Cone, ..base.clone() });
-    }
-    if !stored {
-        return methods;
-    }
-    if scene.samplers.iter().any(|s| s.mag != Filter::Linear) {
+    let own = match scene.sampling.footprint {
+        Footprint::None => (procedural && !stored).then_some(Footprint::Cone),
+        footprint => Some(footprint),
+    };
+    let magnifies_otherwise = scene.samplers.iter().any(|s| s.mag != Filter::Linear);
+    if stored && magnifies_otherwise {
         notes.push(
             "filters were left out: --filter would also change how textures are magnified, which the scene does otherwise than linearly"
                 .into(),
         );
-        return methods;
     }
-    for filter in FILTERS {
-        let method = Method { footprint: Footprint::Cone, filter: Some(filter), ..base.clone() };
-        match method.apply(scene, scene.sampling.spp) {
-            Ok(_) => methods.push(method),
-            Err(why) => notes.push(format!("{} was left out: {why}", method.name())),
+    let mut methods: Vec<Method> = Vec::new();
+    for pattern in [scene.sampling.pattern, Pattern::Center] {
+        let base = Method::of_pattern(pattern);
+        let unchanged = own.map(|footprint| Method { footprint, ..base.clone() });
+        let filters = FILTERS.iter().filter(|_| stored && !magnifies_otherwise);
+        let filters = filters.map(|filter| Method {
+            footprint: Footprint::Cone,
+            filter: Some(*filter),
+            ..base.clone()
+        });
+        let mut found: Vec<Method> = Vec::new();
+        for method in filters.chain(unchanged) {
+            match method.apply(scene, method.least_count(scene)) {
+                Ok(applied) if found.iter().any(|other| other.reads_alike(scene, &applied)) => {}
+                Ok(_) => found.push(method),
+                // The other pattern is refused for the same reason.
+                Err(why) if pattern == scene.sampling.pattern => {
+                    notes.push(format!("{} was left out: {why}", method.name()));
+                }
+                Err(_) => {}
+            }
         }
+        methods.extend(found.into_iter().filter(|method| !methods.contains(method)).collect::<Vec<_>>());
     }
     methods
 }

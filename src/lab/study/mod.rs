@@ -12,14 +12,17 @@ pub mod analysis;
 pub mod bootstrap;
 pub mod choice;
 mod course;
+mod extrapolation;
 mod files;
 mod fit;
 pub mod format;
+pub mod halves;
 mod identity;
 pub mod label;
-mod limit;
+pub mod limit;
 mod measure;
 pub mod method;
+pub mod own;
 mod page;
 pub mod pictures;
 pub mod plan;
@@ -103,6 +106,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     let reference =
         reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
+    record.notes.extend(reference.note.clone());
     Course {
         sessions: &sessions,
         scene,

@@ -11,11 +11,11 @@ use super::record::Record;
 use super::showcase::Showcase;
 use super::{steadiness, tables};
 
-/// The charts of the page, each as SVG.
+/// The charts of the page, each as SVG, wide and as narrow as a phone.
 pub struct Plots {
-    pub time: String,
-    pub rays: String,
-    pub stages: String,
+    pub time: [String; 2],
+    pub rays: [String; 2],
+    pub stages: [String; 2],
 }
 
 /// The largest width of a picture in the page.
@@ -62,8 +62,13 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
     Ok(document(&header, &sections.into_iter().collect(), SCRIPT))
 }
 
-fn plot(label: &str, svg: &str) -> Html {
-    scroll(label, Html::trusted(svg))
+/// Returns a chart in both widths, of which the style shows one.
+fn plot(label: &str, [wide, narrow]: &[String; 2]) -> Html {
+    html!(
+        "<div class=\"wide-plot\">\n{}</div>\n<div class=\"narrow-plot\">\n{}</div>\n",
+        scroll(label, Html::trusted(wide)),
+        Html::trusted(narrow)
+    )
 }
 
 fn image(uri: &str, size: [u32; 2], alt: &str, class: &str) -> Html {

@@ -8,7 +8,7 @@ impl Question {
     pub fn is_met_by(self, point: &PointRecord) -> bool {
         match self {
             Question::Budget(seconds) => point.median_seconds() <= seconds,
-            Question::Error(rmse) => point.errors.rmse <= rmse,
+            Question::Error(rmse) => point.own().rmse <= rmse,
         }
     }
 

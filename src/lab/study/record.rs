@@ -13,7 +13,7 @@ use crate::scene::model::Scene;
 
 use super::Options;
 use super::fit::median;
-use super::results::Analysis;
+use super::results::{Analysis, OwnError};
 
 pub const FILE: &str = "study.json";
 
@@ -89,6 +89,9 @@ pub struct ReferenceRecord {
     pub seconds: f64,
     /// The RMSE of the reference itself, from its two independent halves.
     pub rmse: Option<f64>,
+    /// Its sums of squared errors of parts of the picture, from the halves; empty if there are none.
+    #[serde(default)]
+    pub blocks: Vec<f32>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -108,7 +111,11 @@ pub struct PointRecord {
     pub seconds: Vec<f64>,
     pub device_seconds: Vec<f64>,
     pub stages: Stages,
+    /// The errors against the reference, as `moire compare` measures them.
     pub errors: Errors,
+    /// The RMSE without the reference's; absent if nothing is known of the reference.
+    #[serde(default)]
+    pub own: Option<OwnError>,
     /// Sums of squared errors of parts of the picture; empty for a point of an older study.
     #[serde(default)]
     pub blocks: Vec<f32>,

@@ -2,7 +2,7 @@
 //! so far. Output: methods, and points to measure.
 //!
 //! A method's error at a time is interpolated between its points, both as logarithms, and beyond the last one continued
-//! along the line through the first and the last.
+//! along the line through the first and the last. Errors are without the reference's own, of which half is as good as none.
 
 use super::fit::time_to;
 use super::method::Method;
@@ -15,12 +15,18 @@ use crate::scene::{MAX_SPP, check_spp};
 
 /// A method goes on if its error comes within this factor of the least one, at some time.
 const PROMISING: f64 = 1.25;
+/// The first times of a method may be so much longer than later ones: it may still fit a time that is asked for.
+const FIRST_TIMES: f64 = 1.5;
+/// An error is told apart down to this part of the reference's own.
+const LEAST_PART: f64 = 0.5;
 /// At least and at most so many methods go on.
 const GOING_ON: [usize; 2] = [2, 6];
 /// Methods that get a point of their own for a question.
 const CANDIDATES: usize = 3;
 /// A point this near to what was asked needs no other beside it.
 const NEAR: f64 = 0.8;
+/// The slope of the RMSE of independent samples, where nothing better is known.
+const INDEPENDENT: f64 = -0.5;
 /// Left of a budget, as times vary.
 const MARGIN: f64 = 0.95;
 /// The largest count for a question, over the largest that was asked for: the reference has 64 times those.
@@ -34,7 +40,8 @@ struct Curve(Vec<(f64, f64)>);
 
 impl Curve {
     fn of(record: &Record, method: &str, time: Time) -> Curve {
-        let points = record.points_of(method).map(|p| (time(p), p.errors.rmse));
+        let least = LEAST_PART * record.reference.rmse.unwrap_or(0.0);
+        let points = record.points_of(method).map(|p| (time(p), p.own().rmse.max(least)));
         let mut points: Vec<(f64, f64)> =
             points.filter(|p| p.0 > 0.0 && p.1 > 0.0 && p.1.is_finite()).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -49,11 +56,12 @@ impl Curve {
         }
     }
 
-    /// Returns the expected error after `seconds`; infinite if the shortest point takes longer.
-    fn error_at(&self, seconds: f64) -> f64 {
+    /// Returns the expected error after `seconds`; infinite if the shortest point takes longer than `tolerance` times that.
+    fn error_at(&self, seconds: f64, tolerance: f64) -> f64 {
         let after = self.0.iter().position(|p| p.0 > seconds);
         match (after, self.0.last()) {
             (None, Some(last)) => last.1 * (seconds / last.0).powf(self.slope()),
+            (Some(0), _) if self.0[0].0 <= tolerance * seconds => self.0[0].1,
             (Some(0), _) | (None, None) => f64::INFINITY,
             (Some(i), _) => {
                 let (a, b) = (self.0[i - 1], self.0[i]);
@@ -74,9 +82,16 @@ impl Curve {
     }
 }
 
-/// Returns how many times as bad each method is as the best one where it does best; infinite if it was not measured.
-/// `horizon`: the time in which the longest points will be rendered.
-fn scores(record: &Record, question: Option<Question>, horizon: f64, time: Time) -> Vec<f64> {
+/// Returns the methods that were measured, the best first, with how many times as bad each is as the best one where it does
+/// best; that is infinite where it does not fit a time that is asked for. `horizon`: the time in which the longest points
+/// will be rendered; `tolerance`: by how much the shortest point may exceed a time. Methods whose pictures are all those of a
+/// better one are left out.
+fn scores(
+    record: &Record,
+    question: Option<Question>,
+    horizon: f64,
+    (time, tolerance): (Time, f64),
+) -> Vec<(usize, f64)> {
     let curves: Vec<Curve> = record.methods.iter().map(|m| Curve::of(record, &m.name, time)).collect();
     let ratios = |values: Vec<f64>| {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -89,16 +104,34 @@ fn scores(record: &Record, question: Option<Question>, horizon: f64, time: Time)
         Some(Question::Error(error)) => learn(curves.iter().map(|c| c.time_to(error)).collect()),
         // Nothing is as short as that: the shortest is judged.
         Some(Question::Budget(seconds)) => {
-            learn(curves.iter().map(|c| c.error_at(seconds.max(first))).collect());
+            learn(curves.iter().map(|c| c.error_at(seconds.max(first), tolerance)).collect());
         }
         None => {
             let measured = curves.iter().flat_map(|c| &c.0).map(|p| p.0);
             for seconds in measured.chain(steps(first, horizon)) {
-                learn(curves.iter().map(|c| c.error_at(seconds)).collect());
+                learn(curves.iter().map(|c| c.error_at(seconds, tolerance)).collect());
             }
         }
     }
-    best
+    let shortest = |i: usize| curves[i].0.first().map_or(f64::INFINITY, |p| p.0);
+    let mut order: Vec<usize> = (0..curves.len()).filter(|i| shortest(*i).is_finite()).collect();
+    order.sort_by(|a, b| best[*a].total_cmp(&best[*b]).then(shortest(*a).total_cmp(&shortest(*b))));
+    let mut kept: Vec<(usize, f64)> = Vec::new();
+    for i in order {
+        let name = |i: usize| record.methods[i].name.as_str();
+        if !kept.iter().any(|(other, _)| repeats(record, name(i), name(*other))) {
+            kept.push((i, best[i]));
+        }
+    }
+    kept
+}
+
+/// Returns true if all pictures of a method are those of another one.
+fn repeats(record: &Record, method: &str, other: &str) -> bool {
+    let same = |p: &PointRecord| {
+        record.points_of(other).any(|q| q.spp == p.spp && !p.picture.is_empty() && q.picture == p.picture)
+    };
+    record.points_of(method).all(same)
 }
 
 /// Returns the indices of the methods to go on with, in the order of the study.
@@ -106,17 +139,16 @@ pub fn promising(record: &Record, question: Option<Question>, growth: f64) -> Ve
     // The same again when the study is resumed, with more repeats of some.
     let first: Time = |p| p.seconds.first().copied().unwrap_or(f64::NAN);
     let longest = record.points.iter().map(first).fold(0.0, f64::max);
-    let scores = scores(record, question, longest * growth, first);
-    let mut order: Vec<usize> = (0..scores.len()).filter(|i| scores[*i].is_finite()).collect();
-    order.sort_by(|a, b| scores[*a].total_cmp(&scores[*b]));
-    let near = order.iter().filter(|i| scores[**i] <= PROMISING).count();
-    order.truncate(near.clamp(GOING_ON[0], GOING_ON[1]));
-    order.sort_unstable();
-    order
+    let order = scores(record, question, longest * growth, (first, FIRST_TIMES));
+    let near = order.iter().filter(|(_, score)| *score <= PROMISING).count();
+    let chosen = order.iter().take(near.clamp(GOING_ON[0], GOING_ON[1]));
+    let mut chosen: Vec<usize> = chosen.map(|(method, _)| *method).collect();
+    chosen.sort_unstable();
+    chosen
 }
 
-/// Returns points that come nearer to what was asked than those measured: of the most promising methods, with the count
-/// that is expected to fill the time, or to reach the error.
+/// Returns points that come nearer to what was asked than those measured: of the most promising methods that take another
+/// count, with the one that is expected to fill the time, or to reach the error.
 pub fn toward(
     question: Question,
     record: &Record,
@@ -124,11 +156,11 @@ pub fn toward(
     scene: &Scene,
     largest: u32,
 ) -> Result<Vec<Point>> {
-    let scores = scores(record, Some(question), f64::INFINITY, PointRecord::median_seconds);
-    let mut order: Vec<usize> = (0..methods.len()).filter(|i| scores[*i].is_finite()).collect();
-    order.sort_by(|a, b| scores[*a].total_cmp(&scores[*b]));
+    let order = scores(record, Some(question), f64::INFINITY, (PointRecord::median_seconds, 1.0));
     let mut points = Vec::new();
-    for &method in order.iter().take(CANDIDATES) {
+    // One count alone does not tell when an error is reached.
+    let may_answer = |score: f64| score.is_finite() || matches!(question, Question::Error(_));
+    for (method, _) in order.into_iter().filter(|(_, score)| may_answer(*score)) {
         let how = &methods[method];
         // One beam or cone a pixel has no other count.
         if matches!(how.algorithm, Algorithm::Beam | Algorithm::Cone) {
@@ -145,32 +177,43 @@ pub fn toward(
         };
         let Some(spp) = fitting else { continue };
         let samples = how.apply(scene, spp)?.sampling.samples();
-        if !own.iter().any(|p| p.spp == spp || p.samples == samples) {
+        if points.len() < CANDIDATES && !own.iter().any(|p| p.spp == spp || p.samples == samples) {
             points.push(Point { method, spp, samples });
         }
     }
     Ok(points)
 }
 
-/// Returns the count of samples that is expected to answer; `None` where a point is near already.
+/// Returns the count of samples that is expected to answer, along the line through the two points of a method that are
+/// next to what was asked; `None` where a point is near already.
 fn count(question: Question, own: &[&PointRecord]) -> Option<u32> {
-    let near = |p: &&&PointRecord| match question {
+    let near = |p: &&PointRecord| match question {
         Question::Budget(seconds) => p.median_seconds() >= NEAR * seconds && p.median_seconds() <= seconds,
-        Question::Error(error) => p.errors.rmse >= NEAR * error && p.errors.rmse <= error,
+        Question::Error(error) => p.own().rmse >= NEAR * error && p.own().rmse <= error,
     };
-    let (first, last) = (own.first()?, own.last()?);
-    if own.iter().any(|p| near(&p)) || first.spp == last.spp {
+    if own.iter().any(near) {
         return None;
     }
-    let [few, many] = [first, last].map(|p| f64::from(p.spp));
+    let first_beyond = own.iter().position(|p| match question {
+        Question::Budget(seconds) => p.median_seconds() > MARGIN * seconds,
+        Question::Error(error) => p.own().rmse <= MARGIN * error,
+    });
+    let after = first_beyond.unwrap_or(own.len()).clamp(1, own.len().saturating_sub(1).max(1));
+    let (before, after) = (own.get(after - 1)?, own.get(after));
+    let few = f64::from(before.spp);
     let wanted = match question {
         Question::Budget(seconds) => {
-            let each = (last.median_seconds() - first.median_seconds()) / (many - few);
-            first.spp as f64 + (MARGIN * seconds - first.median_seconds()) / each
+            // Of one point all the time is counted as that of its samples.
+            let each = after.map_or(before.median_seconds() / few, |after| {
+                (after.median_seconds() - before.median_seconds()) / (f64::from(after.spp) - few)
+            });
+            few + (MARGIN * seconds - before.median_seconds()) / each
         }
         Question::Error(error) => {
-            let slope = (last.errors.rmse / first.errors.rmse).ln() / (many / few).ln();
-            many * (MARGIN * error / last.errors.rmse).powf(1.0 / slope)
+            let slope = after.map_or(INDEPENDENT, |after| {
+                (after.own().rmse / before.own().rmse).ln() / (f64::from(after.spp) / few).ln()
+            });
+            few * (MARGIN * error / before.own().rmse).powf(1.0 / slope)
         }
     };
     (wanted.is_finite() && wanted >= 1.0).then(|| wanted.min(f64::from(MAX_SPP)) as u32)

@@ -1,7 +1,7 @@
 //! What is computed of a study's points, as data: slopes, winners, times to errors and one sentence. Part of the
 //! record.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Analysis {
@@ -43,6 +43,15 @@ pub struct Reach {
     pub methods: Vec<(String, Vec<Option<f64>>)>,
 }
 
+/// An RMSE without the reference's own, and the interval of 95 % that noise leaves open. The lower end is 0 where the error
+/// cannot be told from none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OwnError {
+    pub rmse: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
 /// The smallest error within a time budget.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Winner {
@@ -54,7 +63,10 @@ pub struct Winner {
     /// The samples per pixel as text.
     pub taken: String,
     pub seconds: f64,
+    /// The error without the reference's own.
     pub rmse: f64,
+    /// The interval of 95 % of the error: by noise, and by the slope if it is extrapolated.
+    pub interval: [f64; 2],
     /// True if the error is extrapolated along the slope beyond the method's longest point. Without
     /// that, a slow method would win all the time in which nothing else was measured.
     pub estimated: bool,
@@ -66,6 +78,7 @@ pub struct RecommendedPoint {
     pub method: String,
     pub spp: u32,
     pub seconds: f64,
+    /// The error without the reference's own.
     pub rmse: f64,
 }
 

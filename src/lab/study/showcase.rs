@@ -52,6 +52,27 @@ impl Showcase {
     }
 }
 
+/// Returns the caption of an algorithm; `sampled` is the fraction of the pixels in which beams were sampled.
+fn caption(algorithm: Algorithm, sampled: Option<f64>) -> &'static str {
+    match (algorithm, sampled.unwrap_or(0.0)) {
+        (Algorithm::Samples, _) => "The same number of samples in every pixel.",
+        (Algorithm::Adaptive, _) => "More samples where the first ones differ, fewer where they agree.",
+        (Algorithm::Beam, 0.0) => {
+            "Each pixel is one region of rays, cut by the shapes that it meets: no samples, no grain."
+        }
+        (Algorithm::Beam, 1.0) => {
+            "No pixel of this scene can be resolved by a beam: all are sampled as without."
+        }
+        (Algorithm::Beam, _) => {
+            "Each pixel is one region of rays, cut by the shapes that it meets; where that cannot be done it is sampled."
+        }
+        (Algorithm::Cone, _) => {
+            "Each pixel is one cone, over whose width shapes and textures are averaged: no grain, some blur."
+        }
+        (Algorithm::Auto, _) => "The program chooses the algorithm.",
+    }
+}
+
 /// Heading, caption and pattern of the artefacts and the first remedy.
 const PATTERNS: [(&str, &str, Pattern); 4] = [
     (
@@ -77,7 +98,7 @@ const PATTERNS: [(&str, &str, Pattern); 4] = [
 ];
 const FILTERED: (&str, &str) =
     ("Filtering", "Each sample reads its texture averaged over its share of the pixel: no grain, some blur.");
-const ALGORITHM: (&str, &str) = ("Another algorithm", "The pixel is not sampled at points alone.");
+const ALGORITHM: &str = "Another algorithm";
 const WINNER: (&str, &str) =
     ("The recommended method", "It has the least error within most of the times that were measured.");
 const ANSWER: (&str, &str) =
@@ -101,7 +122,7 @@ pub fn render(
         chosen.push((FILTERED.0, FILTERED.1, method));
     }
     for method in record.methods.iter().filter_map(named).filter(|m| m.algorithm != Algorithm::Samples) {
-        chosen.push((ALGORITHM.0, ALGORITHM.1, method));
+        chosen.push((ALGORITHM, "", method));
     }
     let winner = record.analysis.as_ref().and_then(|a| best_of(record, &a.winners));
     let winning = winner.and_then(|point| Method::parse(&point.method).ok());
@@ -116,7 +137,11 @@ pub fn render(
     let mut panels: Vec<Panel> = Vec::new();
     let mut left_out = 0;
     for (heading, text, method) in chosen.into_iter().filter(|c| sessions.has(&c.2)) {
-        let count = asked.filter(|_| heading == ANSWER.0).map_or(count, |point| point.spp);
+        let name = method.name();
+        // A picture of a point that is in the tables, if there is one.
+        let measured = record.points_of(&name).min_by_key(|p| p.spp.abs_diff(count)).map(|p| p.spp);
+        let measured = asked.filter(|_| heading == ANSWER.0).map(|point| point.spp).or(measured);
+        let count = measured.unwrap_or(count);
         let Some(spp) = next_count(method.pattern_in(scene), count) else { continue };
         let is_recommended = match asked {
             Some(_) => heading == ANSWER.0,
@@ -138,6 +163,7 @@ pub fn render(
         let spp = if method.algorithm == Algorithm::Beam { spp } else { film.samples };
         let taken = samples_taken_by(method.algorithm, spp, sampled);
         let rmse = compare(&film, reference)?.rmse;
+        let text = if text.is_empty() { caption(method.algorithm, sampled) } else { text };
         let method = method.label(scene.sampling.pattern);
         panels.push(Panel { heading, text, method, is_recommended, taken, film, rmse });
     }

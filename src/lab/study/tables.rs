@@ -1,7 +1,9 @@
 //! The tables of the page: winners, slopes, times to errors, every point, and the conditions.
 
 use super::analysis::{Analysis, MethodSlope};
-use super::format::{asked_error, asked_seconds, error, percent, samples_taken, seconds, times};
+use super::format::{
+    asked_error, asked_seconds, error, own_error, own_error_of, percent, samples_taken, seconds, times,
+};
 use super::quote;
 use super::record::{PointRecord, Question, Record};
 use crate::lab::plot::html::{Html, code, html, scroll, section, table};
@@ -9,22 +11,32 @@ use crate::lab::plot::html::{Html, code, html, scroll, section, table};
 pub fn winners(record: &Record, analysis: &Analysis) -> Html {
     let row = |w: &super::results::Winner| {
         let about = if w.estimated { "about " } else { "" };
-        let rmse = format!("{about}{}", error(w.rmse));
+        let rmse = format!("{about}{}", own_error(w.rmse, w.interval));
         let names = std::iter::once(&w.method).chain(&w.ties).map(|name| method(record, name));
         let names = Html::join(names, " = ");
         vec![
-            html!("{}", seconds(w.budget)),
+            kept(&seconds(w.budget)),
             names,
             html!("{}", w.taken),
-            html!("{}", rmse),
-            html!("{}", seconds(w.seconds)),
+            kept(&rmse),
+            kept(&format!("{} to {}", error(w.interval[0]), error(w.interval[1]))),
+            kept(&seconds(w.seconds)),
         ]
     };
     let rows: Vec<Vec<Html>> = analysis.winners.iter().map(row).collect();
     let mut text = Html::default();
+    if let Some(own) = record.reference.rmse {
+        let told =
+            "Errors are without that of the reference itself, whose square is subtracted. It is an RMSE of";
+        let bound =
+            "“under”: an error that cannot be told from none, as it is lost in the noise of the reference.";
+        text = html!("<p>{} {}. {}</p>\n", told, error(own), bound);
+    }
     if analysis.winners.iter().any(|w| w.estimated) {
-        text =
-            text + html!("<p>“about”: beyond what was measured of the method, along its fitted slope.</p>\n");
+        let about = "“about”: beyond what was measured of the method, along its fitted slope, up to four times its \
+                     longest time and not below the reference's own error; only where it leads by more than noise and \
+                     the slope leave open.";
+        text = text + html!("<p>{}</p>\n", about);
     }
     if analysis.winners.iter().any(|w| !w.ties.is_empty()) {
         let ties = "“=”: the same picture, or errors whose difference has a 95 % interval that holds 0.";
@@ -32,7 +44,7 @@ pub fn winners(record: &Record, analysis: &Analysis) -> Html {
     }
     text + table(
         "The least error within each time",
-        &["time", "winner", "a pixel takes", "RMSE", "it takes"],
+        &["time", "winner", "a pixel takes", "RMSE", "95 % of noise", "it takes"],
         &rows,
     )
 }
@@ -55,8 +67,8 @@ pub fn slopes(record: &Record, analysis: &Analysis) -> Html {
     let rows: Vec<Vec<Html>> = fitted.map(row).collect();
     let short = analysis.slopes.iter().filter(|slope| slope.fitted.is_none());
     let short = folded(short.map(|slope| record.label(&slope.method)), "with too few points for a slope");
-    let text = "The slope of the variance (RMSE²) over the rays, fitted to the points that lie well above the \
-                reference's own error, with a 95 % interval by how far they lie from the line; and what noise alone \
+    let text = "The slope of the variance (RMSE²) over the rays, without that of the reference, fitted to the points \
+                that err by more than the reference itself, with a 95 % interval by how far they lie from the line; and what noise alone \
                 leaves open, by drawing parts of the picture anew (95 % of 2000 draws). Theory: independent samples \
                 −1; jittered strata −1 where all of a pixel varies, −1.5 along one edge, −2 where it is smooth. A \
                 scene that has all three has a slope between.";
@@ -83,12 +95,14 @@ pub fn reach(record: &Record, analysis: &Analysis) -> Html {
     let heads: Vec<String> = analysis.reach.errors.iter().map(|e| error(*e)).collect();
     let head: Vec<&str> = std::iter::once("RMSE").chain(heads.iter().map(String::as_str)).collect();
     let row = |(name, cells): &(String, Vec<Option<f64>>)| {
-        let cells = cells.iter().map(|c| html!("{}", c.map_or("–".into(), seconds)));
+        let cells = cells.iter().map(|c| kept(&c.map_or("–".into(), seconds)));
         std::iter::once(method(record, name)).chain(cells).collect()
     };
     let rows: Vec<Vec<Html>> = analysis.reach.methods.iter().map(row).collect();
-    html!("<p>Interpolated between measured points; – where none is as good.</p>\n")
-        + table("Seconds of rendering until the error falls to a value", &head, &rows)
+    html!(
+        "<p>{}</p>\n",
+        "Interpolated between measured points, without the error of the reference; – where none is as good."
+    ) + table("Seconds of rendering until the error falls to a value", &head, &rows)
 }
 
 pub fn points(record: &Record) -> Html {
@@ -100,13 +114,14 @@ pub fn points(record: &Record) -> Html {
             times(p),
             seconds(p.median_device_seconds()),
             error(e.rmse),
+            own_error_of(p),
             error(e.relative_mse),
             error(e.max),
             percent(e.over_1_255),
             error(e.flip),
         ];
         let mut cells = vec![method(record, &p.method)];
-        cells.extend(texts.iter().map(|text| html!("{}", text)));
+        cells.extend(texts.iter().map(|text| kept(text)));
         cells
     };
     let head = [
@@ -116,6 +131,7 @@ pub fn points(record: &Record) -> Html {
         "render",
         "device",
         "RMSE",
+        "without the reference's",
         "relative MSE",
         "max",
         "over 1/255",
@@ -185,9 +201,9 @@ pub fn answer(record: &Record) -> Html {
     let row = |p: &&PointRecord| {
         vec![
             method(record, &p.method),
+            kept(&own_error_of(p)),
+            kept(&seconds(p.median_seconds())),
             html!("{}", samples_taken(p)),
-            html!("{}", error(p.errors.rmse)),
-            html!("{}", times(p)),
         ]
     };
     let met: Vec<&PointRecord> = ranking.iter().copied().filter(|p| question.is_met_by(p)).collect();
@@ -205,7 +221,7 @@ pub fn answer(record: &Record) -> Html {
             "that did not come to that error",
         ),
     };
-    let head = ["method", "a pixel takes", "RMSE", "render"];
+    let head = ["method", "RMSE", "render", "a pixel takes"];
     section("answer", &heading, long_or_empty(caption, &head, &rows) + folded(others, short))
 }
 
@@ -221,6 +237,11 @@ fn folded<'a>(all: impl Iterator<Item = &'a str>, what: &str) -> Html {
     }
     let items: Html = all.iter().map(|text| html!("<li>{}</li>\n", text)).collect();
     html!("<details><summary>{} {}</summary>\n<ul>\n{}</ul></details>\n", all.len().to_string(), what, items)
+}
+
+/// Returns a cell that is not broken into lines.
+fn kept(text: &str) -> Html {
+    html!("<span class=\"keep\">{}</span>", text)
 }
 
 /// Returns the name of a method; its word on the command line is the tooltip.

@@ -5,8 +5,19 @@ use moire::internal::lab::study::analysis::{
     MethodSlope, Slope, median, recommended, slope, time_to, winners,
 };
 use moire::internal::lab::study::choice::not_significantly_different;
-use moire::internal::lab::study::record::{Errors, PointRecord};
+use moire::internal::lab::study::record::{Errors, PointRecord, ReferenceRecord};
 use moire::internal::oracle::rng::mix_bits;
+
+/// A reference without error.
+const EXACT: ReferenceRecord = ReferenceRecord {
+    hash: String::new(),
+    kind: String::new(),
+    file: String::new(),
+    samples: 0,
+    seconds: 0.0,
+    rmse: None,
+    blocks: Vec::new(),
+};
 
 /// RMSE whose square falls with this slope, with a ripple of some per cent as measured points have.
 fn curve(exponent: f64, ripple: f64) -> Vec<(f64, f64)> {
@@ -87,7 +98,7 @@ fn each_budget_is_won_by_the_least_error_that_fits_into_it() {
         point("good", 4, 0.012, 0.05),
     ];
     let table: Vec<(f64, String, u32)> =
-        winners(&points, &[]).into_iter().map(|w| (w.budget, w.method, w.spp)).collect();
+        winners(&points, &[], &EXACT).into_iter().map(|w| (w.budget, w.method, w.spp)).collect();
     let expected =
         [(0.001, "fast", 1), (0.002, "fast", 1), (0.005, "good", 1), (0.01, "good", 1), (0.02, "good", 4)];
     assert_eq!(table.len(), expected.len(), "{table:?}");
@@ -100,12 +111,12 @@ fn each_budget_is_won_by_the_least_error_that_fits_into_it() {
 fn slow_method_does_not_win_the_times_in_which_nothing_else_was_measured() {
     let points =
         [point("fast", 16, 0.01, 0.02), point("fast", 64, 0.04, 0.01), point("slow", 64, 1.0, 0.009)];
-    let last = |slopes: &[MethodSlope]| winners(&points, slopes).pop().unwrap();
+    let last = |slopes: &[MethodSlope]| winners(&points, slopes, &EXACT).pop().unwrap();
     assert_eq!(last(&[]).method, "slow");
     let found = last(&[law("fast", -1.0, &[-1.0])]);
-    // 25 times the time: a fifth of the error.
-    assert!(found.method == "fast" && found.estimated && (found.rmse - 0.002).abs() < 1e-9, "{found:?}");
-    assert_eq!(found.spp, 1600);
+    // Of 25 times the time no more than four times are believed: half of the error.
+    assert!(found.method == "fast" && found.estimated && (found.rmse - 0.005).abs() < 1e-4, "{found:?}");
+    assert!((255..=256).contains(&found.spp) && (found.seconds - 0.16).abs() < 1e-3, "{found:?}");
     // Without a law there is no extrapolation.
     assert_eq!(last(&[law("fast", -1.0, &[])]).method, "slow");
 }
@@ -126,7 +137,7 @@ fn no_measured_point_beats_the_recommended_one_in_both_error_and_time() {
         let slopes =
             ["random", "stratified", "adaptive"].map(|m| law(m, -1.0 - 2.0 * random(seed, 7), &[-1.0]));
         for slopes in [&[][..], &slopes] {
-            let best = recommended(&points, &winners(&points, slopes)).unwrap();
+            let best = recommended(&points, &winners(&points, slopes, &EXACT)).unwrap();
             let beats = |p: &&PointRecord| {
                 p.median_seconds() < best.median_seconds() && p.errors.rmse < best.errors.rmse
             };
@@ -142,7 +153,7 @@ fn method_that_wins_only_beyond_what_was_measured_is_not_recommended_with_a_beat
         point("adaptive", 64, 0.1 - 1e-6, 0.0025),
         point("adaptive", 256, 0.4, 0.0009),
     ];
-    let best = recommended(&points, &winners(&points, &[law("sobol-owen", -6.0, &[-3.0])])).unwrap();
+    let best = recommended(&points, &winners(&points, &[law("sobol-owen", -6.0, &[-3.0])], &EXACT)).unwrap();
     assert_eq!((best.method.as_str(), best.spp), ("adaptive", 256));
 }
 
@@ -171,7 +182,7 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
             && !not_significantly_different(&points[2], &points[3])
     );
     // In 10 ms grid does not fit by its median, but it took as long as centre in some repeat.
-    for winner in winners(&points, &[]).iter().filter(|w| w.budget > 0.0099) {
+    for winner in winners(&points, &[], &EXACT).iter().filter(|w| w.budget > 0.0099) {
         for method in ["center", "grid", "halton"] {
             assert!(winner.is_or_ties(method), "{method} in {winner:?}");
         }

@@ -111,7 +111,7 @@ fn one_sample_in_the_centre_ties_with_a_grid_of_one() {
         }
     }
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
-    let both = "<span title=\"center\">pixel centers</span> = <span title=\"grid\">regular grid</span>";
+    let both = "<span title=\"center\">pixel centres</span> = <span title=\"grid\">regular grid</span>";
     assert!(page.contains(both), "the page does not name both");
 }
 
@@ -148,11 +148,33 @@ fn beams_are_labelled_by_what_they_did() {
     let beam = points(&record).iter().find(|p| p["method"] == "beam").unwrap();
     assert_eq!((&beam["sampled"], &beam["samples"]), (&1.0.into(), &16.into()), "{beam}");
     assert!(page.contains("beams, 16 samples in every pixel, as beams suit none"));
+    assert!(page.contains("No pixel of this scene can be resolved by a beam"));
     assert!(!page.contains("beams, 1 sample"));
     let (record, page) = studied("s1a");
     let beam = points(&record).iter().find(|p| p["method"] == "beam").unwrap();
     assert_eq!((&beam["sampled"], &beam["samples"]), (&0.0.into(), &1.into()), "{beam}");
     assert!(page.contains("beams, one beam a pixel") && page.contains("one cone a pixel"));
+}
+
+#[test]
+fn pictures_of_the_page_are_points_of_its_tables_with_true_captions() {
+    let folder = tempdir().unwrap();
+    let options = ["--methods", "adaptive+sobol-owen,beam,cone", "--spp", "4,16,64", "--repeats", "1"];
+    let record = studied(folder.path(), &options);
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(!page.contains("not sampled at points alone"));
+    let adaptive =
+        points(&record).iter().find(|p| p["method"] == "adaptive+sobol-owen" && p["spp"] == 16).unwrap();
+    let taken = format!("{} samples on average", adaptive["samples"]);
+    assert!(page.matches(&format!("adaptive, {taken}")).count() >= 1, "no picture took {taken}");
+    assert!(page.contains(&format!("<span class=\"keep\">{taken}</span>")), "the table does not say {taken}");
+    for caption in [
+        "More samples where the first ones differ",
+        "Each pixel is one region of rays, cut by the shapes that it meets: no samples",
+        "Each pixel is one cone",
+    ] {
+        assert!(page.contains(caption), "{caption}");
+    }
 }
 
 #[test]

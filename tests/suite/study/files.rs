@@ -77,7 +77,7 @@ fn check_page(markup: &str, record: &Value) {
         assert!(img.attribute("alt").is_some_and(|alt| alt.len() > 10), "a picture without words");
         assert!(img.attribute("src").is_some_and(|src| src.starts_with("data:image/")));
     }
-    assert_eq!(all("svg").count(), 3);
+    assert_eq!(all("svg").count(), 6, "three charts, wide and narrow");
     assert!(all("caption").count() == all("table").count() && all("table").count() >= 5);
     let said = page.root_element().descendants().filter_map(|n| n.text()).collect::<Vec<_>>().join(" ");
     let sentence = record["analysis"]["recommendation"].as_str().unwrap();

@@ -42,7 +42,7 @@ fn methods_have_the_names_of_the_field_and_none_has_two() {
     assert_eq!(said("stratified+cone+linear"), "trilinear, cone footprint");
     assert_eq!(said("random+cone+ewa"), "EWA, cone footprint, random");
     assert_eq!(said("stratified+differentials"), "ray differentials");
-    assert_eq!(["center", "sobol-owen", "cone"].map(said), ["pixel centers", "Sobol-Owen", "cones"]);
+    assert_eq!(["center", "sobol-owen", "cone"].map(said), ["pixel centres", "Sobol-Owen", "cones"]);
     assert_eq!(["adaptive+sobol-owen", "adaptive+halton"].map(said), ["adaptive", "adaptive, Halton"]);
     let mut all: Vec<String> = every_method().iter().map(|m| m.label(Pattern::Stratified)).collect();
     let count = all.len();
@@ -81,12 +81,57 @@ fn default_set_has_every_pattern_and_filters_where_there_are_textures() {
     for &pattern in Pattern::ALL {
         assert!(methods.contains(&Method::of_pattern(pattern)), "{pattern} is missing");
     }
-    for name in ["stratified+cone+linear", "stratified+cone+anisotropic", "stratified+cone+ewa"] {
-        assert!(methods.iter().any(|m| m.name() == name), "{name} is missing");
+    for filter in ["linear", "anisotropic", "ewa"] {
+        for pattern in ["stratified", "center"] {
+            let name = format!("{pattern}+cone+{filter}");
+            assert!(methods.iter().any(|m| m.name() == name), "{name} is missing");
+        }
     }
     assert!(notes.is_empty(), "{notes:?}");
     let bare = Scene { textures: Vec::new(), ..scene("s1a") };
     assert!(Method::all_for(&bare).0.iter().all(|m| m.footprint == Footprint::None));
+}
+
+#[test]
+fn what_is_the_same_picture_is_one_method_by_the_name_of_its_filter() {
+    let mut own = scene("s1a");
+    own.sampling.footprint = Footprint::Cone;
+    for sampler in &mut own.samplers {
+        (sampler.mag, sampler.min) = Filter::Anisotropic.both();
+        sampler.mip = MipMode::Linear;
+    }
+    let names =
+        |scene: &Scene| -> Vec<String> { Method::all_for(scene).0.iter().map(Method::name).collect() };
+    let found = names(&own);
+    for pattern in ["stratified", "center"] {
+        assert!(found.contains(&format!("{pattern}+cone+anisotropic")), "{found:?}");
+        assert!(!found.contains(&format!("{pattern}+cone")), "twice in {found:?}");
+    }
+    // A filter of the scene's that no other method has is measured as it is.
+    own.samplers.iter_mut().for_each(|sampler| sampler.mip = MipMode::Nearest);
+    let found = names(&own);
+    assert!(
+        found.contains(&"stratified+cone".to_owned()) && found.contains(&"center+cone".to_owned()),
+        "{found:?}"
+    );
+    // The scene's pattern is the centre: nothing is there twice.
+    own.sampling.pattern = Pattern::Center;
+    let mut found = names(&own);
+    let count = found.len();
+    found.sort_unstable();
+    found.dedup();
+    assert_eq!(found.len(), count, "{found:?}");
+}
+
+#[test]
+fn a_filter_without_a_pattern_is_answered_with_a_method_that_has_it() {
+    for (wrong, meant) in
+        [("trilinear", "linear"), ("ewa", "ewa"), ("linear", "linear"), ("stratified+ewa", "ewa")]
+    {
+        let why = Method::parse(wrong).unwrap_err();
+        assert!(why.ends_with(&format!("did you mean stratified+cone+{meant}?")), "{wrong}: {why}");
+        assert!(Method::parse(&format!("stratified+cone+{meant}")).is_ok());
+    }
 }
 
 #[test]

@@ -158,6 +158,91 @@ fn methods_that_are_never_near_the_best_do_not_go_on() {
 }
 
 #[test]
+fn one_cold_render_drops_no_method_and_two_go_on_at_least() {
+    let names = |record: &Record, question| {
+        let chosen = refine::promising(record, Some(question), 4.0);
+        chosen.into_iter().map(|i| record.methods[i].name.clone()).collect::<Vec<_>>()
+    };
+    // 12 ms at first where others have taken 9, though with the least error.
+    let mut points = three_methods();
+    points.push(point("random+cone+ewa", 1, &[0.012], 0.02));
+    let found = names(&record(points.clone(), None), Question::Budget(0.009));
+    assert!(found.contains(&"random+cone+ewa".to_owned()), "{found:?}");
+    // Only one fits, and the next shortest goes on beside it.
+    let found = names(&record(points, None), Question::Budget(0.001));
+    assert_eq!(found, ["random", "sobol-owen"]);
+}
+
+#[test]
+fn methods_are_said_to_err_the_same_only_if_they_keep_what_was_asked() {
+    let blocks = [1.0, 2.0, 3.0, 4.0, 2.0, 1.0, 3.0, 2.0f32];
+    let alike = |method: &str, seconds: f64| PointRecord {
+        blocks: blocks.to_vec(),
+        ..point(method, 4, &[seconds, seconds], 0.1)
+    };
+    let points = vec![
+        alike("grid", 0.02),
+        alike("stratified+cone+linear", 0.03),
+        alike("stratified+cone+ewa", 0.152),
+        alike("adaptive+sobol-owen", 0.522),
+    ];
+    let said =
+        |points: &[PointRecord], question| record(points.to_vec(), question).analysis.unwrap().recommendation;
+    let sentence = said(&points, Some(Question::Budget(0.05)));
+    assert!(sentence.contains("(“trilinear, cone footprint” errs the same but for noise)"), "{sentence}");
+    assert!(!sentence.contains("EWA") && !sentence.contains("adaptive"), "{sentence}");
+    let sentence = said(&points, Some(Question::Budget(0.2)));
+    assert!(
+        sentence
+            .contains("(“trilinear, cone footprint” and “EWA, cone footprint” err the same but for noise)"),
+        "{sentence}"
+    );
+    // Where no time is asked for, what takes longer is no equal.
+    for question in [None, Some(Question::Error(0.1))] {
+        assert!(!said(&points, question).contains("the same but"), "{}", said(&points, question));
+    }
+}
+
+#[test]
+fn points_toward_a_question_lie_between_those_next_to_it() {
+    let scene = stage::scene("s1a");
+    let find = |names: &[&str], points: Vec<PointRecord>, question| -> Vec<(String, u32)> {
+        let methods: Vec<Method> = names.iter().map(|name| Method::parse(name).unwrap()).collect();
+        let record = record(points, None);
+        let found = refine::toward(question, &record, &methods, &scene, 16).unwrap();
+        found.iter().map(|p| (names[p.method].to_owned(), p.spp)).collect()
+    };
+    // A millisecond a sample up to 4, then 5: by the line from the first to the last, 15 ms would be those of 4.
+    let bent = vec![
+        point("random", 1, &[0.001], 0.2),
+        point("random", 4, &[0.004], 0.1),
+        point("random", 16, &[0.064], 0.05),
+    ];
+    assert_eq!(find(&["random"], bent.clone(), Question::Budget(0.015)), [("random".into(), 6)]);
+    // Between errors of 0.1 and 0.05 the exponent is −0.5.
+    assert_eq!(find(&["random"], bent, Question::Error(0.08)), [("random".into(), 6)]);
+    // One count is enough.
+    let one = vec![point("random", 4, &[0.004], 0.1)];
+    assert_eq!(find(&["random"], one.clone(), Question::Budget(0.01)), [("random".into(), 9)]);
+    assert_eq!(find(&["random"], one, Question::Error(0.05)), [("random".into(), 17)]);
+    // Neither a cone, nor the centre, nor the same picture by another name takes one of three places.
+    let names = ["cone", "center", "stratified", "n-rooks", "random", "halton", "sobol-owen"];
+    let mut all = vec![point("cone", 1, &[0.004], 0.001), point("center", 1, &[0.001], 0.002)];
+    for (i, name) in names[2..].iter().enumerate() {
+        let worse = 1.0 + 0.1 * i as f64;
+        for (spp, error) in [(1, 0.1), (4, 0.03)] {
+            let mut own = point(name, spp, &[0.001 * f64::from(spp)], error * worse);
+            if i < 2 {
+                (own.picture, own.errors.rmse) = (format!("same {spp}"), error);
+            }
+            all.push(own);
+        }
+    }
+    let found = find(&names, all, Question::Budget(0.011));
+    assert_eq!(found, [("stratified".into(), 9), ("random".into(), 10), ("halton".into(), 10)]);
+}
+
+#[test]
 fn points_toward_a_question_fill_the_time_and_reach_the_error() {
     let scene = stage::scene("s1a");
     let methods = ["random", "sobol-owen"].map(|name| Method::parse(name).unwrap());
