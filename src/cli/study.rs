@@ -13,7 +13,7 @@ use super::{DEVICE, MEASURING, OUTPUT, REPORT, VIEW};
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
-use crate::lab::study::format::names;
+use crate::lab::study::format::{names, own_error};
 use crate::lab::study::method::Method;
 use crate::lab::study::record::{self, Question, Record};
 use crate::lab::study::{self, Options, ReferenceChoice, reference, steadiness};
@@ -219,11 +219,11 @@ fn report(args: &StudyArgs, out: &Path, record: &Record) -> Result<()> {
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
             super::notify(format_args!(
-                "within {:.3e} s: {} with {}, RMSE {:.3e}",
+                "within {:.3e} s: {} with {}, RMSE {}",
                 w.budget,
                 names(record, w),
                 w.taken,
-                w.rmse
+                own_error(w.rmse, w.interval)
             ));
         }
         record.notes.iter().for_each(|note| super::notify(format_args!("note: {note}")));

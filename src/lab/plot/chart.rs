@@ -133,8 +133,13 @@ impl Chart<'_> {
             && let Some(at) = y.position(value)
         {
             body += &svg::line([left, at], [right, at], "level");
-            names += &svg::text(left + 8.0, at - 5.0, "start", "small name", name);
-            obstacles.marks.push(area([left + 8.0, at - 9.0], name));
+            let width = area([0.0; 2], name)[2];
+            let own = |x: f64| area([x, at - 9.0], name);
+            let cost = |x: &f64| obstacles.cost(&own(*x));
+            let places = [0.02, 0.4, 0.7, 1.0].map(|part| left + part * (right - left - width - 4.0));
+            let x = places.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(left);
+            names += &svg::text(x, at - 5.0, "start", "small name", name);
+            obstacles.marks.push(own(x));
             obstacles.add_line([left, at], [right, at]);
         }
         let (guides, of_guides) = self.guide_lines(&x, &y, &mut obstacles);
@@ -191,7 +196,7 @@ impl Chart<'_> {
         let mut out = String::new();
         for ((series, end), placed) in named.iter().zip(places) {
             let [px, py] = placed.at;
-            let lead = if placed.is_led { svg::line(*end, [px - 2.0, py], "leader") } else { String::new() };
+            let lead = if placed.is_led { svg::line(*end, placed.joint, "leader") } else { String::new() };
             let class = format!("small name t{}{}", series.look()[0], series.weight());
             let text = svg::text(px, py + 4.0, "start", &class, &series.name);
             let name = svg::escape(&series.name);

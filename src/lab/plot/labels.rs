@@ -12,10 +12,14 @@ const GAP: f64 = 10.0;
 const LED_GAP: f64 = 14.0;
 /// How far a name may move from its end before a line must lead to it.
 const NEAR: f64 = 9.0;
+/// Ends that are further apart from left to right have names of their own, wherever there is room.
+const TOGETHER: f64 = 40.0;
 /// How many steps names may move up or down, and a column to the right.
 const STEPS: i32 = 60;
 const STEP: f64 = 7.0;
 const ASIDE: [f64; 4] = [0.0, 18.0, 40.0, 70.0];
+/// What standing on the other side of an end counts as.
+const BEFORE: f64 = 30.0;
 /// What covering another name, a mark, or a piece of a line costs, against a step.
 const COVERED_NAME: f64 = 1e4;
 const COVERED_MARK: f64 = 40.0;
@@ -33,6 +37,8 @@ pub(super) struct Placed {
     pub at: [f64; 2],
     /// True if it is so far from its end that a line has to lead there.
     pub is_led: bool,
+    /// Where a line would lead to.
+    pub joint: [f64; 2],
 }
 
 /// A rectangle: left, top, right, bottom.
@@ -71,7 +77,7 @@ pub(super) fn area([x, y]: [f64; 2], text: &str) -> Area {
 
 /// Places names within `bounds`.
 pub(super) fn place(labels: &[Label<'_>], bounds: Area, obstacles: &Obstacles) -> Vec<Placed> {
-    let mut found = vec![Placed { at: [0.0; 2], is_led: false }; labels.len()];
+    let mut found = vec![Placed { at: [0.0; 2], is_led: false, joint: [0.0; 2] }; labels.len()];
     let mut names: Vec<Area> = Vec::new();
     for group in groups(labels) {
         let width = group.iter().map(|i| area([0.0; 2], labels[*i].text)[2]).fold(0.0, f64::max);
@@ -79,8 +85,11 @@ pub(super) fn place(labels: &[Label<'_>], bounds: Area, obstacles: &Obstacles) -
         let gap = if group.len() > 1 { LED_GAP } else { GAP };
         let ys = apart(&group.iter().map(|i| labels[*i].end[1]).collect::<Vec<_>>());
         let mut best: Option<(f64, Vec<[f64; 2]>)> = None;
-        for (aside, step) in ASIDE.iter().flat_map(|aside| (-STEPS..=STEPS).map(move |k| (aside, k))) {
-            let x = (end + gap + aside).min(bounds[2] - width);
+        // One name alone may stand on the other side of its end.
+        let before = (group.len() == 1).then_some(end - gap - width);
+        let after = ASIDE.iter().map(|aside| (aside, (end + gap + aside).min(bounds[2] - width)));
+        let columns = after.chain(before.map(|x| (&BEFORE, x.max(bounds[0]))));
+        for ((aside, x), step) in columns.flat_map(|at| (-STEPS..=STEPS).map(move |k| (at, k))) {
             let places: Vec<[f64; 2]> = ys.iter().map(|y| [x, y + f64::from(step) * STEP]).collect();
             let areas = group.iter().zip(&places).map(|(i, at)| area(*at, labels[*i].text));
             let mut cost = f64::from(step.abs()) + 0.1 * aside;
@@ -98,8 +107,11 @@ pub(super) fn place(labels: &[Label<'_>], bounds: Area, obstacles: &Obstacles) -
         for (i, at) in group.iter().zip(best.map_or_else(Vec::new, |best| best.1)) {
             let end = labels[*i].end;
             names.push(area(at, labels[*i].text));
-            let is_led = (at[1] - end[1]).abs() > NEAR || at[0] < end[0] || at[0] > end[0] + LED_GAP;
-            found[*i] = Placed { at, is_led };
+            let right = area(at, labels[*i].text)[2];
+            let beside = if at[0] < end[0] { end[0] - right } else { at[0] - end[0] };
+            let is_led = (at[1] - end[1]).abs() > NEAR || !(0.0..=LED_GAP).contains(&beside);
+            let joint = [if at[0] < end[0] { right.min(end[0]) } else { at[0] - 2.0 }, at[1]];
+            found[*i] = Placed { at, is_led, joint };
         }
     }
     found
@@ -110,7 +122,8 @@ fn groups(labels: &[Label<'_>]) -> Vec<Vec<usize>> {
     let own = |i: usize| area([labels[i].end[0] + GAP, labels[i].end[1]], labels[i].text);
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for i in 0..labels.len() {
-        let touches = |group: &Vec<usize>| group.iter().any(|other| overlap(&own(i), &own(*other)));
+        let near = |other: usize| (labels[i].end[0] - labels[other].end[0]).abs() <= TOGETHER;
+        let touches = |group: &Vec<usize>| group.iter().any(|o| near(*o) && overlap(&own(i), &own(*o)));
         let (touching, mut others): (Vec<_>, Vec<_>) = groups.into_iter().partition(touches);
         others.push(touching.into_iter().flatten().chain([i]).collect());
         groups = others;

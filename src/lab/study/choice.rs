@@ -11,6 +11,9 @@ use crate::lab::plot::axis::steps;
 /// The ratio above which errors differ significantly in any case.
 const SIGNIFICANT_RATIO: f64 = 2.0;
 
+/// A median time up to this multiple of a budget may be one of the budget's, if repeats overlap.
+const NEARLY: f64 = 1.25;
+
 impl RecommendedPoint {
     pub fn of(point: &PointRecord) -> RecommendedPoint {
         let (method, seconds) = (point.method.clone(), point.median_seconds());
@@ -84,7 +87,9 @@ fn extrapolated(
 fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     let longest = point.seconds.iter().copied().fold(0.0, f64::max);
     let shortest = |p: &PointRecord| p.seconds.iter().copied().fold(f64::INFINITY, f64::min);
-    let fits = |p: &PointRecord| p.median_seconds() <= budget || shortest(p) <= longest;
+    // A stall of one repeat makes no room for what takes several times as long.
+    let nearly = |p: &PointRecord| p.median_seconds() <= NEARLY * budget && shortest(p) <= longest;
+    let fits = |p: &PointRecord| p.median_seconds() <= budget || nearly(p);
     let mut methods: Vec<String> = Vec::new();
     for other in
         all.iter().filter(|p| p.method != point.method && fits(p) && not_significantly_different(p, point))
@@ -132,7 +137,7 @@ pub fn leaders(record: &Record, most: usize) -> Vec<String> {
 }
 
 /// Returns, among the points that no other beats in both error and time, the best one of the method
-/// that wins most budgets.
+/// that wins most budgets with what was measured of it.
 pub fn recommended<'a>(points: &'a [PointRecord], winners: &[Winner]) -> Option<&'a PointRecord> {
     let beats = |q: &PointRecord, p: &PointRecord| {
         q.median_seconds() < p.median_seconds() && q.errors.rmse < p.errors.rmse
@@ -145,8 +150,9 @@ pub fn recommended<'a>(points: &'a [PointRecord], winners: &[Winner]) -> Option<
         let equal = own().filter(|p| p.method == least.method && not_significantly_different(p, least));
         equal.min_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds())).or(Some(least))
     };
-    let won = |name: &str| winners.iter().filter(|w| w.is_or_ties(name)).count();
-    let on_front = winners.iter().filter(|w| front.iter().any(|p| p.method == w.method));
+    let measured = || winners.iter().filter(|w| !w.estimated);
+    let won = |name: &str| measured().filter(|w| w.is_or_ties(name)).count();
+    let on_front = measured().filter(|w| front.iter().any(|p| p.method == w.method));
     // The last among equals was measured for the longer times.
     match on_front.max_by_key(|w| won(&w.method)) {
         Some(winner) => best(&|p| p.method == winner.method),

@@ -8,6 +8,7 @@ use super::method::Method;
 use super::plan::Point;
 use super::record::{PointRecord, Record};
 use super::reference::Reference;
+use super::refine::COARSE;
 use super::session_cache::SessionCache;
 use super::{Options, plan, refine};
 use crate::core::counted::counted;
@@ -15,8 +16,6 @@ use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::scene::model::{Algorithm, Scene};
 
-/// The largest count of a coarse pass.
-const COARSE: u32 = 16;
 /// The parts of the progress at which the coarse pass and the points for a question end and begin.
 const COARSE_END: f64 = 0.3;
 const QUESTION_START: f64 = 0.8;

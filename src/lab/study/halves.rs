@@ -19,9 +19,9 @@ use super::record::ReferenceRecord;
 
 /// The least and the most of a study's time that the reference takes if it needs it: the most where the points leave it.
 const TIME: [f64; 2] = [0.25, 0.5];
-/// The points take this many times as long as plain samples of their number, and some seconds each for all else.
+/// Renders take this many times as long as plain samples of their number, and so many seconds each for all else.
 const SLOWER: f64 = 2.0;
-const BESIDE_EACH: f64 = 0.3;
+const BESIDE_EACH: f64 = 0.1;
 /// The deadlines of the first and the second attempt at a first pass as fractions of the time, the second with a sixteenth
 /// of the samples.
 const ATTEMPT_DEADLINES: [f64; 2] = [0.45, 0.6];
@@ -45,8 +45,8 @@ pub struct Halves<'a> {
     pub wanted: u32,
     /// The camera rays a pixel that the rest of the study takes.
     pub rest: f64,
-    /// The points of the rest.
-    pub points: usize,
+    /// The renders of the rest.
+    pub renders: f64,
     pub limit: &'a Limit,
 }
 
@@ -131,7 +131,7 @@ impl Halves<'_> {
 
     /// Returns when the reference ends, in seconds from the start of the study: what the points leave, within bounds.
     fn end(&self, seconds_per_ray: f64) -> f64 {
-        let points = SLOWER * seconds_per_ray * self.rest + BESIDE_EACH * self.points as f64;
+        let points = SLOWER * seconds_per_ray * self.rest + BESIDE_EACH * self.renders;
         let [least, most] = TIME.map(|part| part * self.limit.seconds);
         (self.limit.seconds - points).clamp(least, most)
     }

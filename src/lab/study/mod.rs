@@ -121,6 +121,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     record.analysis = Some(analysis::analyse(&record));
     let showcase = showcase::render(&sessions, scene, &record, &reference.film, &limit, progress)?;
     record.notes.extend(showcase.note(&limit));
+    record.notes.extend(question::note(&record));
     record.notes.extend(steadiness::note(&record));
     record.notes.extend(limit.note());
     files::write_all(&options.out, &record, &showcase)?;

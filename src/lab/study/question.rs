@@ -1,7 +1,9 @@
 //! What a study is asked: what is best in a time, or what comes to an error fastest. Input: the measured points. Output:
-//! the point that answers, whether it keeps what was asked, and the best point of each method in order.
+//! the point that answers, whether it keeps what was asked, the best point of each method in order, and a note where the
+//! reference is too poor to tell.
 
-use super::record::{PointRecord, Question};
+use super::format::{asked_error, error};
+use super::record::{PointRecord, Question, Record};
 
 impl Question {
     /// Returns true if a point keeps what was asked.
@@ -55,4 +57,16 @@ impl Question {
     pub fn answer(self, points: &[PointRecord]) -> Option<&PointRecord> {
         self.ranking(points).first().copied()
     }
+}
+
+/// Returns a note if the reference errs by more than the error that is asked for.
+pub fn note(record: &Record) -> Option<String> {
+    let Some(Question::Error(asked)) = record.conditions.question else { return None };
+    let own = record.reference.rmse.filter(|own| *own > asked)?;
+    Some(format!(
+        "the reference itself errs by {}, more than the {} that was asked for: what points err by below that is uncertain; \
+         more --seconds or larger numbers in --spp make it better, or name a better one with --reference",
+        error(own),
+        asked_error(asked)
+    ))
 }

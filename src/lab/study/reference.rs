@@ -20,6 +20,7 @@ use super::identity::{self, Hash};
 use super::limit::Limit;
 use super::method::Method;
 use super::record::ReferenceRecord;
+use super::refine::{COARSE, GOING_ON};
 use super::session_cache::SessionCache;
 use super::{Options, ReferenceChoice};
 
@@ -61,12 +62,8 @@ pub fn obtain(
         let note = few(record.samples, wanted, limit);
         return Ok(Reference { note, ..finished(film, record, 0.0) });
     }
-    let halves = Halves {
-        wanted,
-        rest: rays_of_points(scene, options),
-        points: count_of_points(scene, options),
-        limit,
-    };
+    let (renders, rest) = planned(scene, options);
+    let halves = Halves { wanted, rest, renders, limit };
     let (film, mut record, progress) = if oracle {
         let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
@@ -106,17 +103,21 @@ fn few(samples: u32, wanted: u32, limit: &Limit) -> Option<String> {
     })
 }
 
-/// Returns how many points the study has at most.
-fn count_of_points(scene: &Scene, options: &Options) -> usize {
+/// Returns the renders of the study, and the camera rays a pixel of all of them, if all methods are alike.
+fn planned(scene: &Scene, options: &Options) -> (f64, f64) {
     let methods = options.methods.as_ref().map_or_else(|| Method::all_for(scene).0.len(), Vec::len);
-    methods * options.counts.len()
-}
-
-/// Returns the camera rays a pixel of all points, if all methods are alike.
-fn rays_of_points(scene: &Scene, options: &Options) -> f64 {
-    let counts: f64 = options.counts.iter().copied().map(f64::from).sum();
-    let methods = count_of_points(scene, options) / options.counts.len().max(1);
-    counts * f64::from(options.repeats) * methods as f64
+    let of = |counts: &[u32], methods: usize, repeats: u32| {
+        let rays: f64 = counts.iter().copied().map(f64::from).sum();
+        let all = methods as f64 * f64::from(repeats);
+        (all * counts.len() as f64, all * rays)
+    };
+    if !options.best {
+        return of(&options.counts, methods, options.repeats);
+    }
+    let few: Vec<u32> = options.counts.iter().copied().filter(|count| *count <= COARSE).collect();
+    let [coarse, fine] =
+        [of(&few, methods, 1), of(&options.counts, methods.min(GOING_ON[1]), options.repeats)];
+    (coarse.0 + fine.0, coarse.1 + fine.1)
 }
 
 fn finished(film: Film, record: ReferenceRecord, progress: f64) -> Reference {

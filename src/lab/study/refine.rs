@@ -20,7 +20,9 @@ const FIRST_TIMES: f64 = 1.5;
 /// An error is told apart down to this part of the reference's own.
 const LEAST_PART: f64 = 0.5;
 /// At least and at most so many methods go on.
-const GOING_ON: [usize; 2] = [2, 6];
+pub(super) const GOING_ON: [usize; 2] = [2, 6];
+/// The largest count of a coarse pass.
+pub(super) const COARSE: u32 = 16;
 /// Methods that get a point of their own for a question.
 const CANDIDATES: usize = 3;
 /// A point this near to what was asked needs no other beside it.

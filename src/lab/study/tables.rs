@@ -44,7 +44,7 @@ pub fn winners(record: &Record, analysis: &Analysis) -> Html {
     }
     text + table(
         "The least error within each time",
-        &["time", "winner", "a pixel takes", "RMSE", "95 % of noise", "it takes"],
+        &["time", "winner", "a pixel takes", "RMSE", "95 % interval", "it takes"],
         &rows,
     )
 }
@@ -61,7 +61,7 @@ pub fn slopes(record: &Record, analysis: &Analysis) -> Html {
         let points = s.fitted.map_or("–".into(), |f| f.points.to_string());
         let noise = s.interval.map_or("–".into(), |[low, high]| minus(format!("{low:.2} to {high:.2}")));
         let texts = [fitted, points, noise, s.theory_text.clone(), lies_within(s)];
-        std::iter::once(method(record, &s.method)).chain(texts.iter().map(|text| html!("{}", text))).collect()
+        std::iter::once(method(record, &s.method)).chain(texts.iter().map(|text| kept(text))).collect()
     };
     let fitted = analysis.slopes.iter().filter(|slope| slope.fitted.is_some());
     let rows: Vec<Vec<Html>> = fitted.map(row).collect();

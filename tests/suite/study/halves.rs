@@ -27,7 +27,7 @@ fn samples(wanted: u32, limit: f64, rest: f64, stalls: &dyn Fn(u32) -> f64) -> u
         film.pixels.fill([seed as f32; 3]);
         Ok(film)
     };
-    let halves = Halves { wanted, rest, points: 0, limit: &limit };
+    let halves = Halves { wanted, rest, renders: 0.0, limit: &limit };
     let (film, record, _) = halves.render(&half, &NoProgress).unwrap();
     assert_eq!((film.samples, record.blocks.len()), (record.samples, 64));
     record.samples
