@@ -1,8 +1,8 @@
 //! Which methods are worth going on with after a coarse pass, and which further counts answer a question. Input: the points
 //! so far. Output: methods, and points to measure.
 //!
-//! A method's error at a time is interpolated between its points, both as logarithms, and beyond the last one continued
-//! along the line through the first and the last. Errors are without the reference's own, of which half is as good as none.
+//! A method's error at a time is interpolated between its points, both as logarithms. Beyond the last one it goes on by its
+//! last two points: time along the line over the samples, error along that of the logarithms. Errors are without the reference's own, of which half is as good as none.
 
 use super::fit::time_to;
 use super::method::Method;
@@ -37,36 +37,65 @@ const BEYOND: u32 = 4;
 /// What counts as the time of a point.
 type Time = fn(&PointRecord) -> f64;
 
-/// The measured points of one method: (seconds, RMSE), in the order of time.
-struct Curve(Vec<(f64, f64)>);
+/// The measured points of one method: (seconds, RMSE) in the order of time, and how it goes on beyond them.
+struct Curve {
+    points: Vec<(f64, f64)>,
+    beyond: Option<Beyond>,
+}
+
+/// The continuation of a method by the two points with the most samples.
+struct Beyond {
+    count: f64,
+    seconds: f64,
+    rmse: f64,
+    seconds_each: f64,
+    /// Of the RMSE over the samples, both as logarithms; below 0.
+    slope: f64,
+}
+
+impl Beyond {
+    /// Two points in the order of their samples: (samples, seconds, RMSE).
+    fn of([a, b]: [(f64, f64, f64); 2]) -> Option<Beyond> {
+        let slope = (b.2 / a.2).ln() / (b.0 / a.0).ln();
+        // Where noise hides what a sample costs, all of the time is that of samples.
+        let each = (b.1 - a.1) / (b.0 - a.0);
+        let seconds_each = if each > 0.0 { each } else { b.1 / b.0 };
+        (slope < 0.0).then_some(Beyond { count: b.0, seconds: b.1, rmse: b.2, seconds_each, slope })
+    }
+
+    fn error_at(&self, seconds: f64) -> f64 {
+        let count = self.count + (seconds - self.seconds).max(0.0) / self.seconds_each;
+        self.rmse * (count / self.count).powf(self.slope)
+    }
+
+    fn time_to(&self, error: f64) -> f64 {
+        let count = self.count * (error / self.rmse).powf(1.0 / self.slope);
+        self.seconds + (count - self.count) * self.seconds_each
+    }
+}
 
 impl Curve {
     fn of(record: &Record, method: &str, time: Time) -> Curve {
         let least = LEAST_PART * record.reference.rmse.unwrap_or(0.0);
-        let points = record.points_of(method).map(|p| (time(p), p.own().rmse.max(least)));
-        let mut points: Vec<(f64, f64)> =
-            points.filter(|p| p.0 > 0.0 && p.1 > 0.0 && p.1.is_finite()).collect();
+        let points = record.points_of(method).map(|p| (f64::from(p.spp), time(p), p.own().rmse.max(least)));
+        let points: Vec<(f64, f64, f64)> =
+            points.filter(|p| p.1 > 0.0 && p.2 > 0.0 && p.2.is_finite()).collect();
+        let last_two = points.last_chunk::<2>().copied();
+        let mut points: Vec<(f64, f64)> = points.into_iter().map(|p| (p.1, p.2)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Curve(points)
-    }
-
-    /// Returns the slope from the first point to the last, at most 0.
-    fn slope(&self) -> f64 {
-        match (self.0.first(), self.0.last()) {
-            (Some(a), Some(b)) if b.0 > a.0 => ((b.1 / a.1).ln() / (b.0 / a.0).ln()).min(0.0),
-            _ => 0.0,
-        }
+        Curve { points, beyond: last_two.and_then(Beyond::of) }
     }
 
     /// Returns the expected error after `seconds`; infinite if the shortest point takes longer than `tolerance` times that.
     fn error_at(&self, seconds: f64, tolerance: f64) -> f64 {
-        let after = self.0.iter().position(|p| p.0 > seconds);
-        match (after, self.0.last()) {
-            (None, Some(last)) => last.1 * (seconds / last.0).powf(self.slope()),
-            (Some(0), _) if self.0[0].0 <= tolerance * seconds => self.0[0].1,
+        let points = &self.points;
+        let after = points.iter().position(|p| p.0 > seconds);
+        match (after, points.last()) {
+            (None, Some(last)) => self.beyond.as_ref().map_or(last.1, |beyond| beyond.error_at(seconds)),
+            (Some(0), _) if points[0].0 <= tolerance * seconds => points[0].1,
             (Some(0), _) | (None, None) => f64::INFINITY,
             (Some(i), _) => {
-                let (a, b) = (self.0[i - 1], self.0[i]);
+                let (a, b) = (points[i - 1], points[i]);
                 a.1 * (b.1 / a.1).powf((seconds / a.0).ln() / (b.0 / a.0).ln())
             }
         }
@@ -74,12 +103,8 @@ impl Curve {
 
     /// Returns the expected time to an error; infinite if it is never reached.
     fn time_to(&self, error: f64) -> f64 {
-        let measured = time_to(&self.0, error);
-        let continued = || {
-            let last = self.0.last()?;
-            let slope = self.slope();
-            (slope < 0.0).then(|| last.0 * (error / last.1).powf(1.0 / slope))
-        };
+        let measured = time_to(&self.points, error);
+        let continued = || self.beyond.as_ref().map(|beyond| beyond.time_to(error));
         measured.or_else(continued).unwrap_or(f64::INFINITY)
     }
 }
@@ -101,7 +126,7 @@ fn scores(
     };
     let mut best = vec![f64::INFINITY; curves.len()];
     let mut learn = |values: Vec<f64>| best.iter_mut().zip(ratios(values)).for_each(|(b, v)| *b = b.min(v));
-    let first = curves.iter().filter_map(|c| c.0.first()).map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let first = curves.iter().filter_map(|c| c.points.first()).map(|p| p.0).fold(f64::INFINITY, f64::min);
     match question {
         Some(Question::Error(error)) => learn(curves.iter().map(|c| c.time_to(error)).collect()),
         // Nothing is as short as that: the shortest is judged.
@@ -109,13 +134,13 @@ fn scores(
             learn(curves.iter().map(|c| c.error_at(seconds.max(first), tolerance)).collect());
         }
         None => {
-            let measured = curves.iter().flat_map(|c| &c.0).map(|p| p.0);
+            let measured = curves.iter().flat_map(|c| &c.points).map(|p| p.0);
             for seconds in measured.chain(steps(first, horizon)) {
                 learn(curves.iter().map(|c| c.error_at(seconds, tolerance)).collect());
             }
         }
     }
-    let shortest = |i: usize| curves[i].0.first().map_or(f64::INFINITY, |p| p.0);
+    let shortest = |i: usize| curves[i].points.first().map_or(f64::INFINITY, |p| p.0);
     let mut order: Vec<usize> = (0..curves.len()).filter(|i| shortest(*i).is_finite()).collect();
     order.sort_by(|a, b| best[*a].total_cmp(&best[*b]).then(shortest(*a).total_cmp(&shortest(*b))));
     let mut kept: Vec<(usize, f64)> = Vec::new();

@@ -242,6 +242,8 @@ fn a_reference_takes_no_more_samples_than_a_part_of_the_time_allows() {
         let (samples, notes) = (&record["reference"]["samples"], record["notes"].to_string());
         assert!(samples.as_u64().is_some_and(|n| n < 1 << 24), "all samples in {seconds} s: {samples}");
         assert!(points(&record).len() == 1 && notes.contains(HOURS), "{notes}");
+        let said = format!("the reference has {samples} samples a pixel instead of 33554432: no room within");
+        assert!(notes.contains(&said), "{said}: {notes}");
         return;
     }
     panic!("300 s are no time for one point");

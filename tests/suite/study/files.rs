@@ -65,6 +65,11 @@ fn check_csv(csv: &str, record: &Value) {
         assert_eq!(row[column("method")], point["method"]);
         let rmse: f64 = row[column("rmse")].parse().unwrap();
         assert!((rmse / point["errors"]["rmse"].as_f64().unwrap() - 1.0).abs() < 1e-5, "{row:?}");
+        let [own, low, high] = ["own_rmse", "own_rmse_low", "own_rmse_high"].map(|name| row[column(name)]);
+        let [own, low, high] = [own, low, high].map(|text| text.parse::<f64>().unwrap());
+        assert!(low <= own && own <= high && own < rmse, "{own} of {rmse}, {low} to {high}");
+        let reference = record["reference"]["rmse"].as_f64().unwrap();
+        assert!((own.hypot(reference) / rmse - 1.0).abs() < 1e-5, "{own}, {reference} and {rmse}");
         assert!(row[column("render_seconds")].parse::<f64>().unwrap() > 0.0, "{row:?}");
     }
 }

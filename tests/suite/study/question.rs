@@ -6,7 +6,7 @@ use std::fs;
 use moire::internal::lab::study::method::Method;
 use moire::internal::lab::study::record::{Conditions, Errors, MethodRecord, PointRecord, Question, Record};
 use moire::internal::lab::study::results::Steadiness;
-use moire::internal::lab::study::{analysis, refine, steadiness};
+use moire::internal::lab::study::{analysis, question, refine, steadiness};
 use moire::internal::scene::model::Pattern;
 use tempfile::tempdir;
 
@@ -96,6 +96,19 @@ fn the_least_error_in_a_time_and_the_least_time_to_an_error_are_recommended() {
 }
 
 #[test]
+fn a_reference_that_errs_by_more_than_what_is_asked_is_noted() {
+    let mut asked = record(three_methods(), Some(Question::Error(0.01)));
+    asked.reference.rmse = Some(0.02);
+    let note = question::note(&asked).unwrap();
+    assert!(note.contains("the reference itself errs by 2.00e−2, more than the 0.01"), "{note}");
+    asked.reference.rmse = Some(0.005);
+    assert_eq!(question::note(&asked), None);
+    asked.conditions.question = Some(Question::Budget(0.001));
+    asked.reference.rmse = Some(0.02);
+    assert_eq!(question::note(&asked), None);
+}
+
+#[test]
 fn ranking_has_the_best_point_of_each_method_in_order() {
     let points = three_methods();
     let names = |question: Question| {
@@ -171,6 +184,30 @@ fn one_cold_render_drops_no_method_and_two_go_on_at_least() {
     // Only one fits, and the next shortest goes on beside it.
     let found = names(&record(points, None), Question::Budget(0.001));
     assert_eq!(found, ["random", "sobol-owen"]);
+}
+
+#[test]
+fn what_a_picture_costs_beside_its_samples_makes_no_method_promising() {
+    // A millisecond for the picture and a tenth for each sample: as time goes on, 16 times the samples take 11 times as long.
+    let points = vec![
+        point("random", 1, &[0.0011], 0.065),
+        point("random", 4, &[0.0014], 0.0325),
+        point("random", 16, &[0.0026], 0.01625),
+        point("stratified+cone+linear", 1, &[0.0015], 0.02),
+        point("stratified+cone+linear", 4, &[0.0030], 0.01),
+        point("stratified+cone+linear", 16, &[0.0090], 0.005),
+        point("center", 1, &[0.0010], 0.09),
+    ];
+    let record = record(points, None);
+    let chosen = refine::promising(&record, Some(Question::Budget(0.05)), 1.0);
+    // 490 samples err by 0.0029, 98 filtered ones by 0.002.
+    assert_eq!(chosen[..], [0, 1], "at least two");
+    let toward = |question| {
+        let methods = ["random", "stratified+cone+linear", "center"].map(|name| Method::parse(name).unwrap());
+        refine::toward(question, &record, &methods, &stage::scene("s1a"), 1024).unwrap()
+    };
+    let first: Vec<usize> = toward(Question::Budget(0.05)).iter().map(|p| p.method).collect();
+    assert_eq!(first, [1, 0], "the filtered ones come first");
 }
 
 #[test]
