@@ -30,6 +30,9 @@ const KEY_ROW: f64 = 20.0;
 const FAR_LEVEL: f64 = 4.0;
 /// Where along a guide its name may stand: away from the right end, where lines have their names.
 const GUIDE_NAMES: [f64; 13] = [0.55, 0.5, 0.6, 0.45, 0.65, 0.4, 0.7, 0.35, 0.3, 0.75, 0.25, 0.8, 0.15];
+/// How far above or below its guide a name may stand, and what a pixel of that counts as.
+const OFF_GUIDE: [f64; 5] = [0.0, -11.0, 11.0, -18.0, 18.0];
+const OFF_GUIDE_COST: f64 = 0.1;
 /// Half of a mark's side, with some air.
 const MARK: f64 = 6.0;
 
@@ -277,8 +280,9 @@ impl Chart<'_> {
             let half = area([0.0, 0.0], name)[2] / 2.0;
             let own = |[px, py]: [f64; 2]| area([px - half, py], name);
             let places = GUIDE_NAMES.map(|part| at(x.low * (end / x.low).powf(part)));
-            let cost = |place: &[f64; 2]| obstacles.cost(&own(*place));
-            let Some(place) = places.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))) else { continue };
+            let places = places.iter().flat_map(|[px, py]| OFF_GUIDE.map(|off| ([*px, py + off], off.abs())));
+            let cost = |(place, off): &([f64; 2], f64)| obstacles.cost(&own(*place)) + OFF_GUIDE_COST * off;
+            let Some((place, _)) = places.min_by(|a, b| cost(a).total_cmp(&cost(b))) else { continue };
             names += &svg::text(place[0], place[1] + 4.0, "middle", "small name", name);
             obstacles.marks.push(own(place));
         }

@@ -22,8 +22,8 @@ const ASIDE: [f64; 4] = [0.0, 18.0, 40.0, 70.0];
 const BEFORE: f64 = 30.0;
 /// What covering another name, a mark, or a piece of a line costs, against a step.
 const COVERED_NAME: f64 = 1e4;
-const COVERED_MARK: f64 = 40.0;
-const COVERED_LINE: f64 = 1.5;
+const COVERED_MARK: f64 = 25.0;
+const COVERED_LINE: f64 = 0.7;
 
 pub(super) struct Label<'a> {
     pub text: &'a str,

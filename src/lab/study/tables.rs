@@ -121,7 +121,7 @@ pub fn points(record: &Record) -> Html {
             error(e.flip),
         ];
         let mut cells = vec![method(record, &p.method)];
-        cells.extend(texts.iter().map(|text| kept(text)));
+        cells.extend(texts.iter().map(|text| html!("<span class=\"fit\">{}</span>", text)));
         cells
     };
     let head = [

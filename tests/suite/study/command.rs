@@ -167,7 +167,7 @@ fn pictures_of_the_page_are_points_of_its_tables_with_true_captions() {
         points(&record).iter().find(|p| p["method"] == "adaptive+sobol-owen" && p["spp"] == 16).unwrap();
     let taken = format!("{} samples on average", adaptive["samples"]);
     assert!(page.matches(&format!("adaptive, {taken}")).count() >= 1, "no picture took {taken}");
-    assert!(page.contains(&format!("<span class=\"keep\">{taken}</span>")), "the table does not say {taken}");
+    assert!(page.contains(&format!("<span class=\"fit\">{taken}</span>")), "the table does not say {taken}");
     for caption in [
         "More samples where the first ones differ",
         "Each pixel is one region of rays, cut by the shapes that it meets: no samples",
