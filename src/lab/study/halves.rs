@@ -20,7 +20,7 @@ use super::record::ReferenceRecord;
 /// The least and the most of a study's time that the reference takes if it needs it: the most where the points leave it.
 const TIME: [f64; 2] = [0.25, 0.5];
 /// Renders take this many times as long as plain samples of their number, and so many seconds each for all else.
-const SLOWER: f64 = 2.0;
+const SLOWER: f64 = 1.5;
 const BESIDE_EACH: f64 = 0.1;
 /// The deadlines of the first and the second attempt at a first pass as fractions of the time, the second with a sixteenth
 /// of the samples.

@@ -20,14 +20,16 @@ use super::identity::{self, Hash};
 use super::limit::Limit;
 use super::method::Method;
 use super::record::ReferenceRecord;
-use super::refine::{COARSE, GOING_ON};
+use super::refine::COARSE;
 use super::session_cache::SessionCache;
-use super::{Options, ReferenceChoice};
+use super::{Options, ReferenceChoice, plan};
 
 pub const FILE: &str = "reference.exr";
 /// Samples of the reference relative to those of the longest point: since errors fall at least with
 /// the root of the number, the reference's own is at most an eighth.
 const SAMPLE_FACTOR: u32 = 64;
+/// So many methods are expected to go on after a coarse pass.
+const GOING_ON: f64 = 4.0;
 
 pub struct Reference {
     pub film: Film,
@@ -62,7 +64,7 @@ pub fn obtain(
         let note = few(record.samples, wanted, limit);
         return Ok(Reference { note, ..finished(film, record, 0.0) });
     }
-    let (renders, rest) = planned(scene, options);
+    let [renders, rest] = planned(scene, options)?;
     let halves = Halves { wanted, rest, renders, limit };
     let (film, mut record, progress) = if oracle {
         let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
@@ -103,21 +105,21 @@ fn few(samples: u32, wanted: u32, limit: &Limit) -> Option<String> {
     })
 }
 
-/// Returns the renders of the study, and the camera rays a pixel of all of them, if all methods are alike.
-fn planned(scene: &Scene, options: &Options) -> (f64, f64) {
-    let methods = options.methods.as_ref().map_or_else(|| Method::all_for(scene).0.len(), Vec::len);
-    let of = |counts: &[u32], methods: usize, repeats: u32| {
-        let rays: f64 = counts.iter().copied().map(f64::from).sum();
-        let all = methods as f64 * f64::from(repeats);
-        (all * counts.len() as f64, all * rays)
+/// Returns the renders of the study, and the camera rays a pixel of all of them.
+fn planned(scene: &Scene, options: &Options) -> Result<[f64; 2]> {
+    let methods = options.methods.clone().unwrap_or_else(|| Method::all_for(scene).0);
+    let of = |counts: &[u32]| -> Result<[f64; 2]> {
+        let points = plan::points(&methods, scene, counts)?;
+        Ok([points.len() as f64, points.iter().map(|point| f64::from(point.samples)).sum()])
     };
+    let all = of(&options.counts)?.map(|value| value * f64::from(options.repeats));
     if !options.best {
-        return of(&options.counts, methods, options.repeats);
+        return Ok(all);
     }
     let few: Vec<u32> = options.counts.iter().copied().filter(|count| *count <= COARSE).collect();
-    let [coarse, fine] =
-        [of(&few, methods, 1), of(&options.counts, methods.min(GOING_ON[1]), options.repeats)];
-    (coarse.0 + fine.0, coarse.1 + fine.1)
+    let coarse = of(&few)?;
+    let part = (GOING_ON / methods.len().max(1) as f64).min(1.0);
+    Ok([0, 1].map(|i| coarse[i] + part * all[i]))
 }
 
 fn finished(film: Film, record: ReferenceRecord, progress: f64) -> Reference {

@@ -20,7 +20,7 @@ const FIRST_TIMES: f64 = 1.5;
 /// An error is told apart down to this part of the reference's own.
 const LEAST_PART: f64 = 0.5;
 /// At least and at most so many methods go on.
-pub(super) const GOING_ON: [usize; 2] = [2, 6];
+const GOING_ON: [usize; 2] = [2, 6];
 /// The largest count of a coarse pass.
 pub(super) const COARSE: u32 = 16;
 /// Methods that get a point of their own for a question.
