@@ -87,8 +87,10 @@ fn extrapolated(
 fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     let longest = point.seconds.iter().copied().fold(0.0, f64::max);
     let shortest = |p: &PointRecord| p.seconds.iter().copied().fold(f64::INFINITY, f64::min);
-    // A stall of one repeat makes no room for what takes several times as long.
-    let nearly = |p: &PointRecord| p.median_seconds() <= NEARLY * budget && shortest(p) <= longest;
+    // A stall of one repeat makes no room for what takes several times as long, unless it is the same picture.
+    let alike = |p: &PointRecord| !p.picture.is_empty() && p.picture == point.picture;
+    let near = |p: &PointRecord| alike(p) || p.median_seconds() <= NEARLY * budget;
+    let nearly = |p: &PointRecord| near(p) && shortest(p) <= longest;
     let fits = |p: &PointRecord| p.median_seconds() <= budget || nearly(p);
     let mut methods: Vec<String> = Vec::new();
     for other in

@@ -108,10 +108,8 @@ pub fn reach(record: &Record, analysis: &Analysis) -> Html {
 pub fn points(record: &Record) -> Html {
     let row = |p: &PointRecord| {
         let e = &p.errors;
+        let taken = [p.samples.to_string(), samples_taken(p)];
         let texts = [
-            p.samples.to_string(),
-            samples_taken(p),
-            times(p),
             seconds(p.median_device_seconds()),
             error(e.rmse),
             own_error_of(p),
@@ -121,7 +119,10 @@ pub fn points(record: &Record) -> Html {
             error(e.flip),
         ];
         let mut cells = vec![method(record, &p.method)];
-        cells.extend(texts.iter().map(|text| html!("<span class=\"fit\">{}</span>", text)));
+        let fit = |text: &String| html!("<span class=\"fit\">{}</span>", text);
+        cells.extend(taken.iter().map(fit));
+        cells.push(html!("<span class=\"fit times\">{}</span>", times(p)));
+        cells.extend(texts.iter().map(fit));
         cells
     };
     let head = [

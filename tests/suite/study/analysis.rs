@@ -172,6 +172,7 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
         with("grid", 0.011, "p", &a),
         with("random", 0.009, "q", &more),
         with("halton", 0.009, "r", &nearly),
+        with("slow", 0.05, "t", &nearly),
     ];
     assert!(
         not_significantly_different(&points[0], &points[1])
@@ -187,6 +188,8 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
             assert!(winner.is_or_ties(method), "{method} in {winner:?}");
         }
         assert!(!winner.is_or_ties("random"), "{winner:?}");
+        // Five times as long is no tie, though its shortest repeat is shorter than the longest of centre.
+        assert_eq!(winner.is_or_ties("slow"), winner.budget > 0.049, "{winner:?}");
     }
     // A part whose error is a hundred times that of the others masks nothing.
     let skewed = |factor: f32| -> Vec<f32> {
