@@ -50,7 +50,9 @@ pub struct TextureArgs {
     #[arg(long, value_name = "USE", default_value = "apply",
           value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
     pub orientation: OrientationUse,
-    /// Convert the colours of a file with another colour profile than sRGB, if it is read as srgb
+    /// Colour profile that a file states
+    ///
+    /// Colours of a file that is read as srgb are converted from another profile to sRGB.
     #[arg(long, value_name = "USE", default_value = "apply",
           value_parser = named_parser(ProfileUse::NAMES, ProfileUse::from_name))]
     pub color_profile: ProfileUse,
