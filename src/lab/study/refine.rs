@@ -230,10 +230,11 @@ fn count(question: Question, own: &[&PointRecord]) -> Option<u32> {
     let few = f64::from(before.spp);
     let wanted = match question {
         Question::Budget(seconds) => {
-            // Of one point all the time is counted as that of its samples.
-            let each = after.map_or(before.median_seconds() / few, |after| {
+            let each = after.map(|after| {
                 (after.median_seconds() - before.median_seconds()) / (f64::from(after.spp) - few)
             });
+            // Of one point, and where noise hides what a sample costs, all the time is counted as that of samples.
+            let each = each.filter(|each| *each > 0.0).unwrap_or(before.median_seconds() / few);
             few + (MARGIN * seconds - before.median_seconds()) / each
         }
         Question::Error(error) => {

@@ -96,7 +96,7 @@ fn sampling_and_background_rules() {
             "[sampling]\npattern = 'stratfied'",
             &["did you mean \"stratified\"?", "center, grid"],
         ),
-        ("far pattern", "[sampling]\npattern = 'voronoi'", &["\"poisson\"; allowed: center, grid, random"]),
+        ("far pattern", "[sampling]\npattern = 'voronoi'", &["\"voronoi\"; allowed: center, grid, random"]),
         ("algorithm", "[sampling]\nalgorithm = 'rays'", &["sampling.algorithm", "allowed: samples"]),
         ("footprint", "[sampling]\nfootprint = 'ray'", &["\"ray\"; allowed: none, cone, differentials"]),
         ("number as name", "[sampling]\npattern = 3", &["a string, one of center", "found 3"]),

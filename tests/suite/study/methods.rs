@@ -129,7 +129,7 @@ fn a_filter_without_a_pattern_is_answered_with_a_method_that_has_it() {
         [("trilinear", "linear"), ("ewa", "ewa"), ("linear", "linear"), ("stratified+ewa", "ewa")]
     {
         let why = Method::parse(wrong).unwrap_err();
-        assert!(why.ends_with(&format!("did you mean stratified+cone+{meant}?")), "{wrong}: {why}");
+        assert!(why.contains(&format!("did you mean stratified+cone+{meant}?")), "{wrong}: {why}");
         assert!(Method::parse(&format!("stratified+cone+{meant}")).is_ok());
     }
 }
