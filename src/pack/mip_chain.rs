@@ -1,5 +1,6 @@
 //! Decides where the levels of a texture are generated: on the host when it is packed, or on a device from
-//! level 0. Input: a texture and the caller's choice. Output: true if the levels are left to the device.
+//! level 0; and by whom on the host. Input: a texture and the caller's choice. Output: true if the levels are left to the
+//! device.
 
 use crate::scene::model::{Footprint, Scene};
 use crate::texture::data::{MipKernel, TextureData};
@@ -31,6 +32,21 @@ impl MipPlacement {
             && texels[0] >= least_texels
             && codes.max(numbers) <= most_bytes
             && mips::halves_throughout(texture)
+    }
+}
+
+/// Who makes levels of textures on the host: anew, or by finding those that were made before.
+pub trait LevelMaker {
+    /// Returns levels 1 to the last of a texture of the scene.
+    fn levels(&mut self, index: usize, texture: &TextureData, kernel: MipKernel) -> Vec<TextureData>;
+}
+
+/// Makes all of them.
+pub(super) struct Anew;
+
+impl LevelMaker for Anew {
+    fn levels(&mut self, _: usize, texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
+        mips::mip_chain(texture, kernel)
     }
 }
 

@@ -47,7 +47,8 @@ pub use crate::schema::enums::{
 };
 pub use header::camera_basis;
 use header::header;
-pub use mip_chain::{MipPlacement, reads_levels};
+use mip_chain::Anew;
+pub use mip_chain::{LevelMaker, MipPlacement, reads_levels};
 pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
 pub use sections::Sections;
@@ -138,6 +139,17 @@ pub fn pack_with(
     crop: Option<Rect>,
     mip_chains: MipPlacement,
 ) -> Result<PackedScene> {
+    pack_by(scene, textures, crop, mip_chains, &mut Anew)
+}
+
+/// Packs a scene like [`pack_with`]; `levels` makes those that the host has to make.
+pub fn pack_by(
+    scene: &Scene,
+    textures: Vec<TextureData>,
+    crop: Option<Rect>,
+    mip_chains: MipPlacement,
+    levels: &mut dyn LevelMaker,
+) -> Result<PackedScene> {
     let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::freeze_time(scene));
     let scene = settled.as_ref().unwrap_or(scene);
     let crop = crop.unwrap_or(Rect::whole([scene.width, scene.height]));
@@ -188,7 +200,7 @@ pub fn pack_with(
         let picture = environment.and_then(|e| Some((e, textures.get(e.texture)?)));
         environment_light::distribution(picture.filter(|(e, _)| has_texels(scene, e)))
     });
-    textures::pack_textures(&mut packed, scene, textures, mip_chains)?;
+    textures::pack_textures(&mut packed, scene, textures, mip_chains, levels)?;
     for source in &scene.materials {
         let material = material(&mut packed, source);
         packed.records.materials.push(material);

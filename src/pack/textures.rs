@@ -13,7 +13,7 @@ use crate::texture::{mips, prefix_sums, summed};
 
 use super::texel_format::{linear_floats, needs_linear_floats, without_equal_channels};
 use super::texture_readers::readers;
-use super::{MipPlacement, PackedScene, TextureKind, stored_levels};
+use super::{LevelMaker, MipPlacement, PackedScene, TextureKind, stored_levels};
 
 /// One image descriptor: a texture and its sampler. Look-ups of method shader fetch texels and ignore the sampler, so
 /// all of them share one slot per texture.
@@ -54,6 +54,7 @@ pub fn pack_textures(
     scene: &Scene,
     textures: Vec<TextureData>,
     mip_chains: MipPlacement,
+    level_maker: &mut dyn LevelMaker,
 ) -> Result<()> {
     let mut order: Vec<usize> = (0..textures.len()).collect();
     let tables = |i: usize, packed: &PackedScene| reads(packed, scene, i, SamplerSpec::needs_sums);
@@ -103,7 +104,7 @@ pub fn pack_textures(
             mips::zeroed_levels(&texture)
         } else {
             check_room(&texture, "its mip levels", bytes_of_levels(&texture, kernel))?;
-            mips::mip_chain(&texture, kernel)
+            level_maker.levels(index, &texture, kernel)
         };
         let record = Texture {
             size: UVec3::new(texture.width, texture.height, texture.depth),

@@ -9,11 +9,13 @@ use rayon::prelude::*;
 
 use crate::core::error::Result;
 use crate::gpu::Gpu;
+use crate::pack::LevelMaker;
 use crate::scene::model::Scene;
 use crate::scene::texture_advice::of_textures;
-use crate::texture::data::TextureData;
+use crate::texture::data::{ColorSpace, MipKernel, TexelFormat, TextureData};
 use crate::texture::decode::AllowedFloats;
 use crate::texture::load::load_with_notes;
+use crate::texture::mips;
 use crate::texture::source::TextureSource;
 
 /// The devices and textures of earlier renders; empty before the first. Renders that share it are on the same backends.
@@ -39,11 +41,26 @@ impl Kept {
 /// A texture with its notes, of which each names its file.
 type Decoded = (TextureData, Vec<String>);
 
-/// Textures as they are read: each is decoded once, for as long as it is kept.
+/// Textures as they are read: each is decoded once, and its levels are made once, for as long as it is kept.
 #[derive(Default)]
 pub struct KeptTextures {
-    kept: Vec<(Origin, Decoded)>,
+    kept: Vec<KeptTexture>,
+    /// Where those of the scene that was read last are among them.
+    current: Vec<usize>,
     lasting: Lasting,
+}
+
+struct KeptTexture {
+    origin: Origin,
+    decoded: Decoded,
+    levels: Vec<Levels>,
+}
+
+/// Levels that were made of a texture, which is packed in one format or another.
+struct Levels {
+    kernel: MipKernel,
+    format: (TexelFormat, ColorSpace),
+    made: Vec<TextureData>,
 }
 
 /// How long textures are kept.
@@ -110,23 +127,49 @@ impl KeptTextures {
     }
 
     fn decoded(&self, origin: &Origin) -> Result<Decoded> {
-        let found = self.kept.iter().find(|(known, _)| known == origin);
+        let found = self.kept.iter().find(|own| own.origin == *origin);
         let decode = || load_with_notes(&origin.source, origin.values);
-        found.map_or_else(decode, |(_, decoded)| Ok(decoded.clone()))
+        found.map_or_else(decode, |own| Ok(own.decoded.clone()))
     }
 
     fn keep(&mut self, origins: Vec<Origin>, decoded: &[Decoded]) {
+        let is_known = |own: &KeptTexture| origins.contains(&own.origin);
         match self.lasting {
             Lasting::Never => return,
-            Lasting::Scene => self.kept.clear(),
-            Lasting::Always => {}
-        }
-        for (origin, decoded) in origins.into_iter().zip(decoded) {
-            if !self.kept.iter().any(|(known, _)| *known == origin) {
+            Lasting::Scene => self.kept.retain(is_known),
+            Lasting::Always => {
                 // Of a file that has changed, the earlier texels are of no use.
-                self.kept.retain(|(known, _)| known.source != origin.source || known.values != origin.values);
-                self.kept.push((origin, decoded.clone()));
+                let read_again = |own: &KeptTexture| {
+                    let same =
+                        |new: &Origin| new.source == own.origin.source && new.values == own.origin.values;
+                    origins.iter().any(same)
+                };
+                self.kept.retain(|own| is_known(own) || !read_again(own));
             }
         }
+        self.current.clear();
+        for (origin, decoded) in origins.into_iter().zip(decoded) {
+            let known = self.kept.iter().position(|own| own.origin == origin);
+            let at = known.unwrap_or_else(|| {
+                self.kept.push(KeptTexture { origin, decoded: decoded.clone(), levels: Vec::new() });
+                self.kept.len() - 1
+            });
+            self.current.push(at);
+        }
+    }
+}
+
+impl LevelMaker for KeptTextures {
+    fn levels(&mut self, index: usize, texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
+        let make = || mips::mip_chain(texture, kernel);
+        let at = self.current.get(index);
+        let Some(own) = at.and_then(|&at| self.kept.get_mut(at)) else { return make() };
+        let format = (texture.format, texture.color_space);
+        if let Some(found) = own.levels.iter().find(|made| made.kernel == kernel && made.format == format) {
+            return found.made.clone();
+        }
+        let made = make();
+        own.levels.push(Levels { kernel, format, made: made.clone() });
+        made
     }
 }

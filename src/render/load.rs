@@ -88,7 +88,7 @@ fn pack(
     let (textures, doubts) = kept.read(scene, values)?;
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
     let copies = (!rivals.is_empty()).then(|| textures.clone());
-    let packed = pack::pack_with(scene, textures, options.crop, mip_chains)?;
+    let packed = pack::pack_by(scene, textures, options.crop, mip_chains, kept)?;
     // Beams may have kept them already.
     rivals.textures = packed.beam_textures.clone().or(copies.map(Arc::new));
     Ok(Packed { packed, doubts, rivals })

@@ -30,7 +30,8 @@ impl<'a> Sessions<'a> {
             // Freed first: two sessions may not fit on the device.
             self.current = None;
             let (textures, _) = self.textures.read(scene, AllowedFloats::Finite)?;
-            let packed = pack::pack_with(scene, textures, None, MipChoice::Auto.mip_chains(self.gpu.info()))?;
+            let mip_chains = MipChoice::Auto.mip_chains(self.gpu.info());
+            let packed = pack::pack_by(scene, textures, None, mip_chains, &mut self.textures)?;
             let session = Session::open(self.gpu, packed, false, &Tuning::default())?;
             self.current = Some((identity, session));
         }
