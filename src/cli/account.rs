@@ -60,9 +60,7 @@ pub(super) fn add_warnings(args: &RenderArgs, scene: &Scene, ran: &mut Picture) 
         warnings.push(format!("{fault}; --method shader reads the right ones"));
     }
     warnings.splice(..0, advice::of_scene(scene));
-    if args.overrides.goal().is_some() && args.overrides.names_spp() {
-        warnings.push("--spp has no effect with --budget or --target-error, which choose the samples".into());
-    }
+    warnings.extend(args.overrides.idle_spp().map(String::from));
     let counts_follow_neighbours = matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
     if args.crop.is_some() && counts_follow_neighbours {
         warnings.push(

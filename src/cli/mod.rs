@@ -29,6 +29,7 @@ pub mod texture;
 mod texture_levels;
 mod typed;
 mod vary;
+mod vary_conflicts;
 mod vary_mistakes;
 mod vary_values;
 pub mod verify;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use clap::Args;
+use clap::{Args, Command};
 use serde_json::{Value, json};
 
-use crate::core::error::Result;
+use crate::core::error::{Error, Result};
 use crate::core::range::Rect;
 use crate::integrators::adaptive::Goal;
 use crate::scene::changes::Changes;
@@ -92,7 +92,21 @@ pub struct Overrides {
 impl Overrides {
     /// Reads the scene of a file, seen by the chosen camera. `keeps_meshes`: the layer `instance` numbers them.
     pub fn load(&self, path: &Path, keeps_meshes: bool) -> Result<Scene> {
-        crate::scene::load_as(path, &self.reading(keeps_meshes))
+        crate::scene::load_as(path, &self.reading(keeps_meshes)).map_err(|error| self.with_option(error))
+    }
+
+    /// Returns an error with the option that does what a setting without a section was to do, such as `filter=ewa`.
+    pub fn with_option(&self, error: Error) -> Error {
+        let Error::Scene { source_code, help: None, .. } = &error else { return error };
+        let setting = self.set.iter().find(|setting| setting.text() == source_code.inner());
+        let Some((name, value)) = setting.and_then(|setting| setting.text().split_once('=')) else {
+            return error;
+        };
+        let name = name.trim().replace('_', "-");
+        let command = Overrides::augment_args(Command::new("moire"));
+        let is_option = command.get_arguments().any(|arg| arg.get_long() == Some(name.as_str()));
+        let help = is_option.then(|| format!("--{name} {} is an option of its own", value.trim()));
+        error.and_help(help)
     }
 
     /// Returns how the scene is read: seen by the chosen camera, with the settings.
@@ -220,9 +234,10 @@ impl Overrides {
         self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))
     }
 
-    /// Returns true if a number of samples was named.
-    pub fn names_spp(&self) -> bool {
-        self.spp.is_some()
+    /// Returns a warning if a number of samples was named that has no effect.
+    pub fn idle_spp(&self) -> Option<&'static str> {
+        let is_idle = self.spp.is_some() && self.goal().is_some();
+        is_idle.then_some("--spp has no effect with --budget or --target-error, which choose the samples")
     }
 
     /// Returns the settings that the render used, overridden or not.

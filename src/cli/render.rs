@@ -110,10 +110,11 @@ impl<'a> Job<'a> {
     pub fn stage(&self) -> Result<Stage> {
         let args = self.args;
         let reading = args.overrides.reading(args.layers.numbers_meshes());
-        let (mut scene, file) = match self.replay {
-            Some(replay) => replay.load(&reading)?,
-            None => scene::load_recorded(self.path, &reading)?,
+        let read = match self.replay {
+            Some(replay) => replay.load(&reading),
+            None => scene::load_recorded(self.path, &reading),
         };
+        let (mut scene, file) = read.map_err(|error| args.overrides.with_option(error))?;
         let chosen = args.overrides.apply(&mut scene)?;
         args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
         for path in &self.outputs.files {

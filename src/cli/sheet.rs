@@ -11,6 +11,7 @@ use super::progress::Bar;
 use super::render::check_inputs_kept;
 use super::render_args::parse_part;
 use super::vary::{self, Combination, Vary};
+use super::vary_conflicts;
 use super::vary_mistakes::of_scene;
 use super::{DEVICE, MEASURING, OUTPUT, REPORT};
 use crate::core::counted::counted;
@@ -125,7 +126,7 @@ pub fn run(args: &SheetArgs) -> Result<ExitCode> {
     check_reference(args.reference.as_deref(), "none")?;
     let outputs = outputs(args)?;
     let (plan, warnings) = plan(args)?;
-    plan.check()?;
+    sheet::check(&plan)?;
     for output in &outputs {
         plan.jobs().try_for_each(|job| check_inputs_kept(&output.path, &job.scene))?;
     }
@@ -180,7 +181,9 @@ fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
 
 /// Returns what is to be rendered, and warnings about it.
 fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
-    let (axes, combinations) = vary::combine(&args.vary, (&args.overrides, &args.display))?;
+    let base = (&args.overrides, &args.display);
+    vary_conflicts::check(&args.vary, base)?;
+    let (axes, combinations) = vary::combine(&args.vary, base)?;
     if args.columns.is_some() && axes.len() > 1 {
         return Err(Error::with_help(
             "--columns arranges the values of one setting, and the first of several has its own columns",
@@ -197,7 +200,10 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
         let applied = combination.overrides.apply(&mut scene).map(|_| scene);
         scenes.push((file, applied));
     }
-    let mut warnings: Vec<String> = Vec::new();
+    let overrides = combinations.first().map_or(&args.overrides, |first| &first.overrides);
+    let idle = overrides.idle_spp();
+    let mut warnings: Vec<String> = idle.into_iter().map(String::from).collect();
+    let title = title(args, idle.is_some());
     let mut cells = Vec::with_capacity(combinations.len());
     for (combination, (file, applied)) in combinations.into_iter().zip(scenes) {
         let job = match applied {
@@ -228,7 +234,7 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
         difference: args.diff,
         columns: args.columns,
     };
-    let (title, scene) = (title(args), args.scene.display().to_string());
+    let scene = args.scene.display().to_string();
     let display = args.display.transform();
     Ok((Plan { title, scene, axes, cells, reference, repeats: args.repeats, view, display }, warnings))
 }
@@ -250,24 +256,25 @@ fn job(
             *own = SamplerSpec { address, address_w, border_color, texel_center, ..*base };
         }
     }
-    if args.reference.is_none() {
-        let most = samples.unwrap_or(MAX_HALF);
-        combination.overrides.as_reference(&args.overrides, most).apply(&mut reference).map_err(|why| {
-            Error::with_help(
-                format!("no reference without a prefilter can be rendered: {why}"),
-                "name a picture with --reference, or --reference none",
-            )
-        })?;
+    let most = samples.unwrap_or(MAX_HALF);
+    // Without it, too, this is what tells one view from another.
+    let applied = combination.overrides.as_reference(&args.overrides, most).apply(&mut reference);
+    if let (Err(why), None) = (applied, &args.reference) {
+        return Err(Error::with_help(
+            format!("no reference without a prefilter can be rendered: {why}"),
+            "name a picture with --reference, or --reference none",
+        ));
     }
     prune(&mut scene);
     prune(&mut reference);
     Ok(Job { scene, reference, goal })
 }
 
-fn title(args: &SheetArgs) -> String {
+fn title(args: &SheetArgs, is_spp_idle: bool) -> String {
     let stem = name_of(&args.scene).to_string_lossy().into_owned();
     let given = [args.overrides.given(), args.display.given()].concat();
-    let fixed = given.into_iter().filter(|(name, _)| *name != "size");
+    let is_told = |name: &str| name != "size" && !(is_spp_idle && name == "spp");
+    let fixed = given.into_iter().filter(|(name, _)| is_told(name));
     let words = fixed.map(|(name, value)| label::setting(name, &value));
     std::iter::once(stem).chain(words).collect::<Vec<_>>().join(", ")
 }

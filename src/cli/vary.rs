@@ -30,6 +30,13 @@ pub(super) struct Vary {
     values: Vec<String>,
 }
 
+impl Vary {
+    /// Returns true if the name is a key of the scene, not an option.
+    pub(super) fn is_key(&self) -> bool {
+        is_key(&self.name)
+    }
+}
+
 /// A combination of values.
 pub(super) struct Combination {
     /// The index into the values of each axis.
@@ -49,9 +56,10 @@ pub(super) fn parse(text: &str) -> Result<Vary, String> {
     if name.is_empty() {
         return Err(format!("a name is missing; {EXPECTED}"));
     }
+    let typed = name;
     let name = if is_key(name) { name.to_owned() } else { name.replace('_', "-").to_lowercase() };
     if !is_key(&name) && !names().contains(&name) {
-        return Err(unknown(&name, &names()));
+        return Err(unknown(typed, &names()));
     }
     let told = |what: String| format!("{name}: {what}");
     let values = values(list).map_err(told)?;
@@ -69,7 +77,8 @@ fn is_key(name: &str) -> bool {
     name.contains('.')
 }
 
-fn names() -> Vec<String> {
+/// Returns the options that can vary.
+pub(super) fn names() -> Vec<String> {
     let longs = CellArgs::command();
     let longs = longs.get_arguments().filter_map(|arg| arg.get_long());
     // Keys of the scene are named themselves.
@@ -90,7 +99,7 @@ pub(super) fn combine(
     varied: &[Vary],
     base: (&Overrides, &DisplayArgs),
 ) -> Result<(Vec<Axis>, Vec<Combination>)> {
-    check(varied, base)?;
+    check(varied)?;
     for vary in varied {
         for value in &vary.values {
             CellArgs::try_parse_from(words(&vary.name, value)).map_err(|e| wrong(&vary.name, value, &e))?;
@@ -136,27 +145,12 @@ fn film_of(varied: &[Vary], at: &[usize]) -> usize {
     places.rev().fold(0, |index, [count, at]| index * count + at)
 }
 
-fn check(varied: &[Vary], (overrides, display): (&Overrides, &DisplayArgs)) -> Result<()> {
+fn check(varied: &[Vary]) -> Result<()> {
     if varied.len() > MAX_AXES {
         return Err(Error::with_help(
             format!("--vary is given {} times, and a sheet has columns, rows and blocks", varied.len()),
             "vary at most three settings, and fix the others",
         ));
-    }
-    let given = [overrides.given(), display.given()].concat();
-    for (i, vary) in varied.iter().enumerate() {
-        if varied[..i].iter().any(|other| other.name == vary.name) {
-            return Err(Error::with_help(
-                format!("--vary {} is given twice", vary.name),
-                "name all of its values at once, separated by commas",
-            ));
-        }
-        if given.iter().any(|(name, _)| *name == vary.name) {
-            return Err(Error::with_help(
-                format!("--{0} fixes what --vary {0} varies", vary.name),
-                "leave one of them away",
-            ));
-        }
     }
     Ok(())
 }
@@ -180,5 +174,8 @@ mod tests {
         assert!(wrong("filter").contains("expected NAME=VALUE") && wrong("filter=a,,b").contains("missing"));
         assert!(wrong("spp=1,4,1").contains("spp: 1 is named twice"));
         assert!(wrong("=1,4").contains("a name is missing"));
+        assert!(wrong("crop=0,0,9,9").contains("\"crop\" is no option that can vary"));
+        assert!(wrong("max_anisotropy=1,16").contains("did you mean \"sampler.*.max_anisotropy\"?"));
+        assert!(wrong("fov=30,60").contains("did you mean \"camera.vertical_fov\"?"));
     }
 }

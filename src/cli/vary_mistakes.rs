@@ -3,16 +3,24 @@
 
 use std::collections::BTreeMap;
 use std::error::Error as _;
+use std::sync::Arc;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use miette::NamedSource;
 
 use super::vary_values::RANGES;
 use crate::core::error::Error;
-use crate::scene::suggestion;
+use crate::scene::synonyms::meant;
+use crate::scene::{path_of, suggestion};
 
 /// Returns the message for a name that is not among `names`.
 pub(super) fn unknown(name: &str, names: &[String]) -> String {
-    let near = suggestion(name, names.iter().map(String::as_str));
+    let option = name.replace('_', "-");
+    let options = names.iter().map(String::as_str);
+    let near = match path_of(name).filter(|_| meant(&option, options.clone()).is_none()) {
+        Some(path) => format!("; did you mean \"{path}\"?"),
+        None => suggestion(&option, options),
+    };
     format!(
         "\"{name}\" is no option that can vary: {}; and keys of the scene, such as sampler.NAME.address{near}",
         names.join(", ")
@@ -55,6 +63,12 @@ pub(super) fn of_scene(settings: &BTreeMap<String, String>, error: Error) -> Err
     };
     match error {
         Error::Scene { message, label, source_code, span, help } => {
+            let text = source_code.inner();
+            let is_varied = settings.iter().any(|(name, value)| *text == format!("{name}={value}"));
+            let source_code = match is_varied && source_code.name() == "--set" {
+                true => Arc::new(NamedSource::new("--vary", text.clone())),
+                false => source_code,
+            };
             Error::Scene { message: renamed(message), label, source_code, span, help }
         }
         Error::Plain { kind, message, help } => Error::Plain { kind, message: renamed(message), help },

@@ -32,6 +32,13 @@ pub(super) struct Key {
     pub is_quoted: bool,
 }
 
+impl Key {
+    /// Returns true for the word that means all tables of a section.
+    pub(super) fn is_all(&self) -> bool {
+        !self.is_quoted && self.name == "*"
+    }
+}
+
 impl Setting {
     /// Reads `KEY=VALUE`. The key is dotted: a section, the name or number of one of its tables if there are several,
     /// and the key; a part that holds a dot or `=` is quoted. The value is TOML, or a word without quotes.
@@ -52,6 +59,14 @@ impl Setting {
             Err(_) => found.push(self.value().to_owned()),
         }
         found
+    }
+
+    /// Returns true if nothing is left of another setting that is applied before this one: its key is the same, or lies
+    /// within.
+    pub fn covers(&self, other: &Setting) -> bool {
+        let is_same = |own: &Key, key: &Key| own.name == key.name || own.is_all();
+        self.keys.len() <= other.keys.len()
+            && self.keys.iter().zip(&other.keys).all(|(own, key)| is_same(own, key))
     }
 
     /// Returns the value as it was written.
@@ -193,6 +208,28 @@ mod tests {
         assert_eq!(names(r#"material."a.b=c \"d\"".color=x"#), ["material", r#"a.b=c "d""#, "color"]);
         assert_eq!(names(r"material.'a.b\'.color=x"), ["material", r"a.b\", "color"]);
         assert_eq!(Setting::parse("a.b= x=y ").unwrap().value(), "x=y");
+    }
+
+    #[test]
+    fn a_setting_covers_those_whose_keys_are_its_own_or_lie_within() {
+        let covers =
+            |own: &str, other: &str| Setting::parse(own).unwrap().covers(&Setting::parse(other).unwrap());
+        for (own, other) in [
+            ("a.b=1", "a.b=2"),
+            ("a.b=1", "a.\"b\"=2"),
+            ("a.eye=[0, 0, 0]", "a.eye.0=1"),
+            ("a.*.c=1", "a.b.c=1"),
+        ] {
+            assert!(covers(own, other), "{own} leaves {other}");
+        }
+        for (own, other) in [
+            ("a.b=1", "a.c=1"),
+            ("a.eye.0=1", "a.eye=[0]"),
+            ("a.b.c=1", "a.*.c=1"),
+            ("a.\"*\".c=1", "a.b.c=1"),
+        ] {
+            assert!(!covers(own, other), "{own} covers {other}");
+        }
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! `moire sheet`: the numbers of cells against `render` and `compare`, the pixels of the picture, how they are shown, the
-//! noise of references, cells that cannot be rendered, mistakes, and the page.
+//! noise of references, cells that cannot be rendered or are alike, views, mistakes, and the page.
 
 mod browser;
 mod cells;
@@ -8,6 +8,8 @@ mod mistakes;
 mod picture;
 mod ranges;
 mod reference;
+mod same;
+mod views;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

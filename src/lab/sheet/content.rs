@@ -2,8 +2,8 @@
 //! plan, and what was rendered. Output: pictures and texts in the order in which they are read.
 
 use super::plan::{Plan, ReferenceChoice};
-use super::record::{CellRecord, Record};
-use super::render::Sheet;
+use super::record::{CellRecord, Record, ReferenceRecord};
+use super::render::{Beside, Sheet};
 use super::shown::Shown;
 use crate::core::film::Film;
 use crate::core::range::Rect;
@@ -126,41 +126,49 @@ fn picture(shown: Shown, scale: Option<f32>) -> Body {
     Body::Picture { film: shown.film, difference }
 }
 
-/// Returns what stands beside the cells for comparison: the whole picture, and the reference.
-fn extras(plan: &Plan, sheet: &mut Sheet) -> Vec<Entry> {
-    let mut found = Vec::new();
-    let first = plan.jobs().next();
-    if let (Some(film), Some(part), Some(job)) = (sheet.whole.take(), plan.view.zoom, first) {
-        let full = [job.scene.width, job.scene.height];
-        let step = full[0].div_ceil(film.width.max(1));
-        let size = if step > 1 { format!(", shown at 1/{step}") } else { String::new() };
-        let frame = format!("{}×{} pixels from ({}, {})", part.width, part.height, part.x, part.y);
-        found.push(Entry {
-            heading: Some("whole picture".into()),
-            description: format!("The whole picture; a frame marks {frame}, which the others show enlarged"),
-            caption: vec![format!("{}×{}{size}", full[0], full[1]), format!("frame: {frame}")],
-            body: Body::Whole { film, full, part },
-            command: None,
-        });
-    }
-    if let Some(shown) = sheet.reference.take() {
-        let record = sheet.record.references.first();
-        let own =
-            record.and_then(|record| record.rmse).map(|rmse| format!("itself off by RMSE {}", error(rmse)));
-        let kind = record.map(|record| match &plan.reference {
-            ReferenceChoice::Rendered { .. } => samples(record.samples),
-            _ => record.kind.clone(),
-        });
-        let caption: Vec<String> = kind.into_iter().chain(own).chain(developed(plan)).collect();
-        found.push(Entry {
-            heading: Some("reference".into()),
-            description: format!("The reference: {}", caption.join(", ")),
-            caption,
-            body: Body::Picture { film: shown.film, difference: None },
-            command: None,
-        });
+/// Returns what stands beside the cells for comparison: whole pictures, and references.
+fn extras(plan: &Plan, sheet: &mut Sheet) -> [Vec<Entry>; 2] {
+    let mut found = [Vec::new(), Vec::new()];
+    for Beside { name, reference, whole } in std::mem::take(&mut sheet.beside) {
+        let heading = |what: &str| if name.is_empty() { what.to_owned() } else { format!("{what}, {name}") };
+        if let (Some((film, full)), Some(part)) = (whole, plan.view.zoom) {
+            found[0].push(self::whole(heading("whole picture"), film, full, part));
+        }
+        if let Some((shown, index)) = reference {
+            let record = &sheet.record.references[index];
+            found[1].push(self::reference(plan, heading("reference"), shown, record));
+        }
     }
     found
+}
+
+fn whole(heading: String, film: Film, full: [u32; 2], part: Rect) -> Entry {
+    let step = full[0].div_ceil(film.width.max(1));
+    let size = if step > 1 { format!(", shown at 1/{step}") } else { String::new() };
+    let frame = format!("{}×{} pixels from ({}, {})", part.width, part.height, part.x, part.y);
+    Entry {
+        description: format!("The {heading}; a frame marks {frame}, which the others show enlarged"),
+        heading: Some(heading),
+        caption: vec![format!("{}×{}{size}", full[0], full[1]), format!("frame: {frame}")],
+        body: Body::Whole { film, full, part },
+        command: None,
+    }
+}
+
+fn reference(plan: &Plan, heading: String, shown: Shown, record: &ReferenceRecord) -> Entry {
+    let own = record.rmse.map(|rmse| format!("itself off by RMSE {}", error(rmse)));
+    let kind = match &plan.reference {
+        ReferenceChoice::Rendered { .. } => samples(record.samples),
+        _ => record.kind.clone(),
+    };
+    let caption: Vec<String> = std::iter::once(kind).chain(own).chain(developed(plan)).collect();
+    Entry {
+        description: format!("The {heading}: {}", caption.join(", ")),
+        heading: Some(heading),
+        caption,
+        body: Body::Picture { film: shown.film, difference: None },
+        command: None,
+    }
 }
 
 /// Returns how the reference is shown, if that varies among the cells.
@@ -180,15 +188,20 @@ fn developed(plan: &Plan) -> Option<String> {
     (!words.is_empty()).then(|| words.join(", "))
 }
 
-fn blocks(plan: &Plan, entries: Vec<Entry>, extras: Vec<Entry>) -> Vec<Block> {
+fn blocks(plan: &Plan, entries: Vec<Entry>, extras: [Vec<Entry>; 2]) -> Vec<Block> {
     let labels = |axis: usize| plan.axes.get(axis).map_or(&[][..], |axis| &axis.labels);
     let mut entries = entries.into_iter();
+    let plain = |rows| Block { heading: None, columns: Vec::new(), rows };
+    let is_one_view = extras.iter().all(|row| row.len() <= 1);
     if plan.axes.len() == 1 {
         let headed =
             entries.zip(labels(0)).map(|(entry, label)| Entry { heading: Some(label.clone()), ..entry });
-        let all: Vec<Entry> = headed.chain(extras).collect();
-        let columns = plan.view.columns.map_or(COLUMNS, |columns| columns as usize);
-        return vec![Block { heading: None, columns: Vec::new(), rows: wrapped(all, columns) }];
+        let most = plan.view.columns.map_or(COLUMNS, |columns| columns as usize);
+        if is_one_view {
+            return vec![plain(wrapped(headed.chain(extras.into_iter().flatten()).collect(), most))];
+        }
+        let all = std::iter::once(headed.collect()).chain(extras).filter(|row| !row.is_empty());
+        return all.map(|row| plain(wrapped(row, most))).collect();
     }
     let [columns, rows] = [labels(0), labels(1)];
     let headings =
@@ -201,13 +214,15 @@ fn blocks(plan: &Plan, entries: Vec<Entry>, extras: Vec<Entry>) -> Vec<Block> {
         };
         blocks.push(Block { heading, columns: columns.to_vec(), rows: rows.iter().map(row).collect() });
     }
-    if !extras.is_empty() {
-        blocks.push(Block {
-            heading: None,
-            columns: Vec::new(),
-            rows: vec![Row { heading: None, entries: extras }],
-        });
+    if is_one_view {
+        let entries: Vec<Entry> = extras.into_iter().flatten().collect();
+        if !entries.is_empty() {
+            blocks.push(plain(vec![Row { heading: None, entries }]));
+        }
+        return blocks;
     }
+    let extras = extras.into_iter().filter(|row| !row.is_empty());
+    blocks.extend(extras.map(|row| plain(wrapped(row, columns.len()))));
     blocks
 }
 
@@ -230,7 +245,7 @@ fn notes(plan: &Plan, record: &Record) -> Vec<String> {
     let mut all: Vec<String> = plan.jobs().map(|job| sizes(&job.scene)).collect();
     all.dedup();
     let size = if all.len() == 1 { format!("{} pixels, ", all[0]) } else { String::new() };
-    let times = match plan.repeats {
+    let times = match plan.renders() {
         1 => "times: one render each".to_owned(),
         many => format!("times: median of {many} renders"),
     };

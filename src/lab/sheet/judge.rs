@@ -61,18 +61,15 @@ pub(super) fn judge(record: &mut CellRecord, film: &Film, reference: &Reference)
     Ok(())
 }
 
-/// Returns what is to be said of the reference of pictures that were judged by it. `is_one`: all cells have the same.
+/// Returns what is to be said of the reference of pictures that were judged by it; `whose` it is stands behind it.
 pub(super) fn notes(
     record: &Record,
     drawn: &[Drawn],
     reference: &Reference,
-    is_one: bool,
+    whose: &str,
 ) -> Result<Vec<String>> {
     let Some(halves) = &reference.halves else { return Ok(Vec::new()) };
-    let first = drawn.first().filter(|_| !is_one);
-    let view = first.map(|one| words(&record.cells[one.index], |name| is_shared(record, drawn, name)));
-    let whose = view.map_or_else(String::new, |view| format!(" of \"{view}\""));
-    let mut notes: Vec<String> = unranked(record, drawn, halves, &whose)?.into_iter().collect();
+    let mut notes: Vec<String> = unranked(record, drawn, halves, whose)?.into_iter().collect();
     let of = |drawn: &Drawn| record.cells[drawn.index].rmse.or(record.cells[drawn.index].rmse_below);
     let least = drawn.iter().filter_map(of).fold(f64::INFINITY, f64::min);
     let own = reference.record.rmse.unwrap_or(0.0);

@@ -2,10 +2,11 @@
 //! pictures with errors against a reference and times, put into a film or into HTML, and a record of all of it.
 //!
 //! ```text
-//! plan ─▶ render (sessions, reference, judge) ─▶ record, pictures ─▶ content ─▶ compose (canvas) · page
+//! plan ─▶ check ─▶ render (views, sessions, reference, judge, same) ─▶ record, pictures ─▶ content ─▶ compose (canvas) · page
 //! ```
 
 mod canvas;
+mod check;
 mod compose;
 mod content;
 mod identity;
@@ -15,9 +16,12 @@ pub mod plan;
 pub mod record;
 mod reference;
 mod render;
+mod same;
 mod sessions;
 mod shown;
+mod views;
 
+pub use check::check;
 pub use compose::compose;
 pub use content::Content;
 pub use page::html;

@@ -1,9 +1,9 @@
-//! What a sheet is to show: axes, cells with their scenes, the reference and the part that is seen. Checked here before a
-//! device starts: the numbers of axes and cells, the part, and the size of the sheet.
+//! What a sheet is to show: axes, cells with their scenes, the reference and the part that is seen. Input: what the
+//! command line says. Output: the same as data, with what follows of it: sizes, primaries, the renders of a cell.
 
 use std::collections::BTreeMap;
 
-use crate::core::error::{Error, Result};
+use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::range::Rect;
 use crate::integrators::adaptive::Goal;
@@ -13,8 +13,6 @@ use crate::scene::model::Scene;
 /// Columns, rows and blocks.
 pub const MAX_AXES: usize = 3;
 pub const MAX_CELLS: usize = 64;
-/// The most pixels of all pictures of a sheet, in millions: 12 bytes each, twice while they are put together.
-const MAX_MEGAPIXELS: u64 = 40;
 /// The width in pixels up to which a part is enlarged, unless a factor is given.
 const ENLARGED_WIDTH: u32 = 288;
 const MAX_FACTOR: u32 = 64;
@@ -114,6 +112,11 @@ impl Plan {
         own.map(|(i, _)| i)
     }
 
+    /// Returns how often each cell is rendered: once if it ends at a time or an error.
+    pub fn renders(&self) -> u32 {
+        if self.jobs().any(|job| job.goal.is_some()) { 1 } else { self.repeats }
+    }
+
     /// Returns true if films are shown otherwise than they are.
     pub fn is_developed(&self) -> bool {
         self.displays().any(|display| *display != DisplayTransform::default())
@@ -127,66 +130,6 @@ impl Plan {
     fn displays(&self) -> impl Iterator<Item = &DisplayTransform> {
         self.cells.iter().map(|cell| &cell.display).chain([&self.display])
     }
-
-    /// Refuses a plan of which nothing can be shown.
-    pub fn check(&self) -> Result<()> {
-        if self.jobs().next().is_none() {
-            let why = self.cells.iter().find_map(|cell| cell.job.as_ref().err());
-            return Err(Error::with_help(
-                format!("no cell of this sheet can be rendered: {}", why.map_or("", String::as_str)),
-                "vary another setting, or give the scene the settings that all cells need",
-            ));
-        }
-        for job in self.jobs() {
-            let size = [job.scene.width, job.scene.height];
-            if let Some(zoom) = self.view.zoom {
-                zoom.check_within(size).map_err(|_| outside(zoom, size))?;
-            }
-            if let ReferenceChoice::File { name, film } = &self.reference
-                && [film.width, film.height] != size
-            {
-                return Err(Error::with_help(
-                    format!(
-                        "reference {name}: {}×{} pixels, and the sheet renders {}×{}",
-                        film.width, film.height, size[0], size[1]
-                    ),
-                    "name a reference of the same size, or set the pictures' with --size",
-                ));
-            }
-        }
-        self.check_pixels()
-    }
-
-    fn check_pixels(&self) -> Result<()> {
-        let extra = if matches!(self.reference, ReferenceChoice::None) { 0 } else { 1 };
-        let each = if self.view.difference { 2 } else { 1 };
-        let shown = |job: &Job| {
-            let [width, height] = self.view.shown([job.scene.width, job.scene.height]);
-            u64::from(width) * u64::from(height)
-        };
-        let largest = self.jobs().map(shown).max().unwrap_or(0);
-        let pixels = self.jobs().map(|job| each * shown(job)).sum::<u64>() + extra * largest;
-        if pixels <= MAX_MEGAPIXELS * 1_000_000 {
-            return Ok(());
-        }
-        Err(Error::with_help(
-            format!(
-                "the pictures of this sheet have {} million pixels, of which it takes {MAX_MEGAPIXELS} million",
-                pixels.div_ceil(1_000_000)
-            ),
-            "show a part with --zoom, narrower pictures with --cell, or smaller ones with --size",
-        ))
-    }
-}
-
-fn outside(zoom: Rect, [width, height]: [u32; 2]) -> Error {
-    Error::with_help(
-        format!(
-            "--zoom {},{},{},{} reaches outside the picture of {width}×{height} pixels",
-            zoom.x, zoom.y, zoom.width, zoom.height
-        ),
-        "name a part of the picture: the pixel of its top left corner, its width and its height",
-    )
 }
 
 impl View {

@@ -60,6 +60,7 @@ pub struct Record {
     pub device: String,
     pub driver: String,
     pub axes: Vec<AxisRecord>,
+    /// How often each cell was rendered.
     pub repeats: u32,
     /// The part that is shown: x, y, width, height.
     pub zoom: Option<[u32; 4]>,

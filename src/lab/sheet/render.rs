@@ -1,13 +1,14 @@
 //! Renders the cells of a plan, those of one reference after each other and among them those of one session, and then the
 //! reference. Input: the plan. Output: the record, and of each picture what is shown.
 
-use super::identity::Identity;
 use super::judge::{Drawn, is_enough, judge, notes};
 use super::plan::{Cell, Job, Plan, ReferenceChoice};
 use super::record::{AxisRecord, CellRecord, Record, ReferenceRecord};
 use super::reference::{Extent, Reference};
+use super::same;
 use super::sessions::Sessions;
 use super::shown::{Shown, shown, within};
+use super::views::{names, views};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
@@ -23,10 +24,19 @@ pub struct Sheet {
     pub record: Record,
     /// One for each cell; `None` where it could not be rendered.
     pub pictures: Vec<Option<Shown>>,
-    /// The part of the reference, if all cells have the same.
-    pub reference: Option<Shown>,
-    /// The whole reference, or the first picture without one, if a part is shown of the others.
-    pub whole: Option<Film>,
+    /// What stands beside the cells of each view.
+    pub beside: Vec<Beside>,
+}
+
+/// What stands beside the cells of a view for comparison.
+#[derive(Default)]
+pub struct Beside {
+    /// What tells the view from the others; nothing if there are none.
+    pub name: String,
+    /// The part of the reference that is shown of the cells, and the index of its record.
+    pub reference: Option<(Shown, usize)>,
+    /// The whole reference, or the first picture without one, if a part is shown of the others; and its size.
+    pub whole: Option<(Film, [u32; 2])>,
 }
 
 /// The width to which the whole picture is reduced.
@@ -43,41 +53,24 @@ pub fn render(gpu: &Gpu, plan: &Plan, progress: &dyn Progress) -> Result<Sheet> 
     let sheet = Sheet {
         record: empty_record(gpu, plan),
         pictures: plan.cells.iter().map(|_| None).collect(),
-        reference: None,
-        whole: None,
+        beside: Vec::new(),
     };
     let total: f64 = views.iter().map(|view| view_cost(plan, view)).sum();
-    let mut run = Run { plan, sessions: Sessions::new(gpu), sheet, views: views.len(), total, done: 0.0 };
-    views.iter().try_for_each(|view| run.view(view, progress))?;
-    finish(run.sheet)
-}
-
-/// Returns the cells to render, those of one reference together and among them those of one session.
-fn views(plan: &Plan) -> Vec<Vec<usize>> {
-    let keys: Vec<(Identity, Identity, usize)> =
-        plan.with_films().map(|(i, job)| (reference_of(plan, job), Identity::of(&job.scene), i)).collect();
-    let views = groups(keys, |a, b| a.0 == b.0).into_iter();
-    let sorted = |view| groups(view, |a: &(Identity, Identity, usize), b| a.1 == b.1).into_iter().flatten();
-    views.map(|view| sorted(view).map(|key| key.2).collect()).collect()
-}
-
-/// Returns groups of entries that are alike, in the order of their first ones.
-fn groups<T>(entries: Vec<T>, alike: impl Fn(&T, &T) -> bool) -> Vec<Vec<T>> {
-    let mut groups: Vec<Vec<T>> = Vec::new();
-    for entry in entries {
-        match groups.iter_mut().find(|group| alike(&group[0], &entry)) {
-            Some(group) => group.push(entry),
-            None => groups.push(vec![entry]),
-        }
+    let mut run = Run {
+        plan,
+        sessions: Sessions::new(gpu),
+        sheet,
+        digests: vec![None; plan.cells.len()],
+        views: views.len(),
+        total,
+        done: 0.0,
+    };
+    for (view, name) in views.iter().zip(names(plan, &views)) {
+        run.sheet.beside.push(Beside { name, ..Beside::default() });
+        run.view(view, progress)?;
     }
-    groups
-}
-
-fn reference_of(plan: &Plan, job: &Job) -> Identity {
-    // A file is the reference of all.
-    let first = plan.jobs().next().unwrap_or(job);
-    let scene = if matches!(plan.reference, ReferenceChoice::Rendered { .. }) { job } else { first };
-    Identity::of(&scene.reference)
+    run.sheet.record.warnings.extend(same::notes(plan, &run.digests));
+    finish(run.sheet)
 }
 
 /// Returns what a cell costs, for the progress bar: samples.
@@ -86,7 +79,7 @@ fn cost(plan: &Plan, index: usize) -> f64 {
     let samples = |scene: &Scene| f64::from(scene.sampling.samples()) * pixels(scene);
     let job = plan.cells[index].job.as_ref();
     // Building pipelines takes as long as some samples.
-    job.map_or(0.0, |job| f64::from(plan.repeats) * samples(&job.scene) + 1e6)
+    job.map_or(0.0, |job| f64::from(plan.renders()) * samples(&job.scene) + 1e6)
 }
 
 /// Returns what a view costs: a reference about as much as its cells.
@@ -100,6 +93,8 @@ struct Run<'a> {
     plan: &'a Plan,
     sessions: Sessions<'a>,
     sheet: Sheet,
+    /// What tells the films of cells from each other.
+    digests: Vec<Option<u64>>,
     /// The number of views, each with a reference of its own.
     views: usize,
     /// The costs of all, and of what is done.
@@ -127,6 +122,7 @@ impl Run<'_> {
                 Ok((film, reports)) => {
                     measure(record, job, &film, &reports);
                     seconds += record.seconds.iter().sum::<f64>();
+                    self.digests[index] = Some(same::digest(&film));
                     waiting.push(Drawn { index, film });
                 }
                 Err(Error::Interrupted) => return Err(Error::Interrupted),
@@ -159,7 +155,13 @@ impl Run<'_> {
         if reference.is_none() {
             progress.describe("reference");
             let part = self.part(0.5 * cost, progress);
-            *reference = self.reference(first.index, waiting, seconds, &part)?;
+            *reference = match self.reference(first.index, waiting, seconds, &part) {
+                Err(why) if !matches!(why, Error::Interrupted) && !why.kind().is_transient() => {
+                    self.sheet.record.warnings.push(format!("no reference{}: {why}", self.whose()));
+                    None
+                }
+                made => made?,
+            };
             self.sheet.record.references.extend(reference.as_ref().map(|r| r.record.clone()));
         }
         let reference = reference.as_ref();
@@ -169,13 +171,19 @@ impl Run<'_> {
                 record.reference = Some(self.sheet.record.references.len() - 1);
                 judge(record, film, reference)?;
             }
-            let notes = notes(&self.sheet.record, waiting, reference, self.views == 1)?;
+            let notes = notes(&self.sheet.record, waiting, reference, &self.whose())?;
             self.sheet.record.warnings.extend(notes);
         }
         for drawn in waiting.drain(..) {
             self.show(&drawn, reference);
         }
         Ok(())
+    }
+
+    /// Returns the view as a possessor, if there are others.
+    fn whose(&self) -> String {
+        let name = self.sheet.beside.last().map_or("", |beside| &beside.name);
+        if name.is_empty() { String::new() } else { format!(" of \"{name}\"") }
     }
 
     fn reference(
@@ -202,15 +210,16 @@ impl Run<'_> {
     /// Keeps what is shown of a picture, in all cells that show it.
     fn show(&mut self, drawn: &Drawn, reference: Option<&Reference>) {
         let (plan, sheet) = (self.plan, &mut self.sheet);
-        if self.views == 1 {
+        if let Some(beside) = sheet.beside.last_mut() {
             let picture = reference.map_or(&drawn.film, |reference| &reference.film);
-            if sheet.whole.is_none() && plan.view.zoom.is_some() {
+            if beside.whole.is_none() && plan.view.zoom.is_some() {
                 let whole = pictures::downscaled(&plan.display.developed(picture), WHOLE_WIDTH);
-                sheet.whole = Some(within(whole, plan, &plan.display));
+                let size = [picture.width, picture.height];
+                beside.whole = Some((within(whole, plan, &plan.display), size));
             }
-            if sheet.reference.is_none() {
-                sheet.reference =
-                    reference.map(|reference| shown(plan, &plan.display, &reference.film, None));
+            if let (None, Some(reference)) = (&beside.reference, reference) {
+                let index = sheet.record.references.len() - 1;
+                beside.reference = Some((shown(plan, &plan.display, &reference.film, None), index));
             }
         }
         let record = sheet.record.cells[drawn.index].clone();
@@ -285,7 +294,7 @@ fn empty_record(gpu: &Gpu, plan: &Plan) -> Record {
             .iter()
             .map(|axis| AxisRecord { name: axis.name.clone(), labels: axis.labels.clone() })
             .collect(),
-        repeats: plan.repeats,
+        repeats: plan.renders(),
         zoom: plan.view.zoom.map(|z| [z.x, z.y, z.width, z.height]),
         references: Vec::<ReferenceRecord>::new(),
         difference_scale: None,

@@ -25,7 +25,7 @@ use crate::texture::open_file::hint;
 pub use mesh_file::is_mesh as is_model;
 pub use mesh_scene::{ModelView, model_view};
 pub use scene_file::SceneFile;
-pub use toml::{parse, parse_as, setting_keys};
+pub use toml::{parse, parse_as, path_of, setting_keys};
 
 /// A format of scene files.
 struct Format {

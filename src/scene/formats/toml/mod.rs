@@ -35,7 +35,7 @@ use samplers::Known;
 use source::Source;
 use table::Table;
 pub(in crate::scene) use view::View;
-pub use vocabulary::setting_keys;
+pub use vocabulary::{path_of, setting_keys};
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
 const MAX_BYTES: u64 = 64 << 20;

@@ -165,7 +165,7 @@ impl<'a> Way<'_, 'a> {
         if let Some(index) = names.iter().position(|name| name.as_ref() == Some(&key.name)) {
             return Ok(index..index + 1);
         }
-        if !key.is_quoted && key.name == ALL {
+        if key.is_all() {
             return Ok(0..items.len());
         }
         let number = key.name.parse().ok().filter(|&number| !key.is_quoted && number < items.len());

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::reader::Field;
 use super::source::Source;
-use super::vocabulary::home_of;
+use super::vocabulary::{home_of, path_of};
 use crate::core::error::{Error, Result};
 use crate::scene::suggestion::{quoted, suggestion};
 
@@ -134,10 +134,13 @@ impl<'a> Table<'a> {
 
     fn unknown(&self, stray: Stray<'_>, keys: &[&str], place: &str) -> Error {
         let name = stray.get_ref().as_ref();
-        let near = home_of(self.section, name).map_or_else(
-            || suggestion(name, keys.iter().copied()),
-            |home| format!("; it belongs into {home}"),
-        );
+        // A setting beside the file names the way to its key.
+        let is_typed = self.form == Form::Root && !self.source.is_of_file(stray.span().start);
+        let near = match (path_of(name).filter(|_| is_typed), home_of(self.section, name)) {
+            (Some(path), _) => format!("; did you mean {}?", quoted(&path)),
+            (None, Some(home)) => format!("; it belongs into {home}"),
+            (None, None) => suggestion(name, keys.iter().copied()),
+        };
         let end = if near.ends_with('?') { "" } else { ";" };
         let what = format!("unknown key {} {place}{near}{end} allowed: {}", quoted(name), keys.join(", "));
         self.source.error(stray.span(), &what, format!("unknown key{near}"))

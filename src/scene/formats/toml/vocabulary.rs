@@ -6,6 +6,7 @@ use super::samplers::{BACKGROUND, SAMPLER};
 use super::sections::{CAMERA, IMAGE, PROJECTIONS, SAMPLING};
 use super::shapes::is_shape;
 use super::textures::TEXTURE;
+use crate::scene::synonyms::meant;
 
 /// Keys of a section that exclude each other.
 const ALTERNATIVES: [(&str, &[&str]); 6] = [
@@ -53,6 +54,27 @@ fn neighbours(section: &str) -> &'static [Home] {
 /// Describes the table in words.
 pub(super) fn home_of(section: &str, key: &str) -> Option<&'static str> {
     neighbours(section).iter().find(|(_, keys)| keys.contains(&key)).map(|(home, _)| *home)
+}
+
+/// Tables, and how their keys are named beside the file.
+const PATHS: [(&str, &[&str]); 7] = [
+    ("camera", CAMERA),
+    ("image", IMAGE),
+    ("sampling", SAMPLING),
+    ("sampler.*", SAMPLER),
+    ("material.*", MATERIAL),
+    ("material.*.mapping", MAPPING),
+    ("texture.*", TEXTURE),
+];
+
+/// Returns the whole name of a key that is named without its section, such as `sampler.*.filter`.
+pub fn path_of(word: &str) -> Option<String> {
+    let word = word.to_lowercase().replace('-', "_");
+    let is = |table: &&(&str, &[&str]), key: &str| table.1.contains(&key);
+    let table = PATHS.iter().find(|table| is(table, &word));
+    let found = table.map(|(path, _)| (path, word.as_str()));
+    let meant = || PATHS.iter().find_map(|(path, keys)| Some((path, meant(&word, keys.iter().copied())?.0)));
+    found.or_else(meant).map(|(path, key)| format!("{path}.{key}"))
 }
 
 /// Returns the keys of a section in whose place this one is given.
