@@ -103,9 +103,10 @@ fn rgb(texture: &TextureData) -> impl Iterator<Item = [u8; 3]> {
 fn wide_colors_become_those_of_srgb() {
     let folder = tempdir().unwrap();
     let adobe = |v: f64| v.powf(563.0 / 256.0);
-    let spaces: [(&str, ColorProfile, [f64; 9], &dyn Fn(f64) -> f64); 2] = [
-        ("p3", ColorProfile::new_display_p3(), P3_TO_SRGB, &srgb_to_linear),
-        ("adobe", ColorProfile::new_adobe_rgb(), ADOBE_TO_SRGB, &adobe),
+    type Transfer = fn(f64) -> f64;
+    let spaces = [
+        ("p3", ColorProfile::new_display_p3(), P3_TO_SRGB, srgb_to_linear as Transfer),
+        ("adobe", ColorProfile::new_adobe_rgb(), ADOBE_TO_SRGB, adobe as Transfer),
     ];
     for (name, profile, rows, transfer) in spaces {
         let path = written(folder.path(), &format!("{name}.png"), &rgb_png(&profile));

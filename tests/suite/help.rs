@@ -62,7 +62,8 @@ fn each_command_stands_in_one_group_with_what_it_does() {
     let manual = String::from_utf8(output.stdout).unwrap();
     let known = manual.lines().filter_map(|line| line.strip_prefix("moire\\-")?.strip_suffix("(1)"));
     let mut known: Vec<String> = known.map(String::from).collect();
-    (listed.sort(), known.sort());
+    listed.sort();
+    known.sort();
     assert_eq!(listed, known);
     let help = short(&[]);
     let lines = help.lines().filter(|line| line.starts_with("  "));
