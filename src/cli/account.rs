@@ -8,7 +8,8 @@ use std::path::Path;
 use clap::{ArgMatches, Args, Command as CommandLine, FromArgMatches};
 use serde_json::Value;
 
-use super::record::Record;
+use super::checksums::Checksums;
+use super::record::{Record, Renderer};
 use super::render_args::RenderArgs;
 use super::{replay, report};
 use crate::core::error::{Error, Result};
@@ -29,16 +30,19 @@ pub fn of_words(
     let matches = parse(words, path)?;
     let args = RenderArgs::from_arg_matches(&matches).map_err(failed)?;
     add_warnings(&args, scene, ran);
-    let settings = args.overrides.report(scene, args.crop, args.keep_everything);
-    let options = replay::recorded_options(&matches);
-    let report = report::json(ran, scene, settings.clone(), &[], args.allow_nonfinite);
-    Ok((Record::new(&path.to_string_lossy(), file, options, &ran.device, settings), report))
+    let files = Checksums::begin(scene).finish();
+    ran.report.warnings.extend(files.warnings());
+    let report = report::json(ran, scene, replay::settings_of(&args, scene), &[], args.allow_nonfinite);
+    let by = Renderer::of(ran);
+    Ok((replay::record_of(&args, &matches, (path, file), files.named(&[]), scene, &by), report))
 }
 
 /// Returns the record of a picture that is written with more options: those of its display.
 pub fn with_words(mut record: Record, words: &[String]) -> Result<Record> {
     let all = [&record.options[..], words].concat();
-    record.options = replay::recorded_options(&parse(&all, Path::new(&record.scene.path))?);
+    let matches = parse(&all, Path::new(&record.scene.path))?;
+    record.options = replay::recorded_options(&matches);
+    RenderArgs::from_arg_matches(&matches).map_err(failed)?.files.report(&mut record.settings);
     Ok(record)
 }
 

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
+use super::inputs::Inputs;
 use super::interrupt;
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
@@ -64,7 +65,7 @@ struct Report<'a> {
 pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     interrupt::ends_at_once()?;
     if let Some(path) = &args.diff {
-        output::check_writable(path)?;
+        Inputs::of(&args.a, "the first picture").and(&args.b, "the second picture").check_picture(path)?;
     }
     let both = common(read_placed(&args.a)?, read_placed(&args.b)?)?;
     let mut comparison = compare(&both.a, &both.b)?;

@@ -2,6 +2,7 @@
 //! options. Out: how PNG, JPEG and TIFF files are written, and which options change nothing.
 
 use clap::Args;
+use serde_json::{Value, json};
 
 use super::outputs::Outputs;
 use super::{DISPLAY, named_parser};
@@ -96,6 +97,17 @@ impl FileArgs {
             display: self.display.transform(),
             ..written
         }
+    }
+
+    /// Adds the settings that are in force to those of a report.
+    pub fn report(&self, settings: &mut Value) {
+        let WriteOptions { png_bits, jpeg_quality, display, .. } = self.write_options();
+        settings["exposure"] = json!(display.exposure);
+        settings["white_balance"] = json!(display.white_balance);
+        settings["tone_map"] = json!(display.tone_map.name());
+        settings["gamut"] = json!(display.gamut.name());
+        settings["png_bits"] = json!(png_bits);
+        settings["jpeg_quality"] = json!(jpeg_quality);
     }
 
     /// Returns warnings for options that concern no output.

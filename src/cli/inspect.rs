@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::inputs::Inputs;
 use super::outputs::folder_or_default;
 use super::overrides::Overrides;
 use super::progress::Bar;
@@ -12,7 +13,6 @@ use crate::core::counted::counted;
 use crate::core::error::Result;
 use crate::gpu::DeviceSelect;
 use crate::lab::inspect::{self, EXR, PAGE};
-use crate::output::OutputFolder;
 use crate::render::{On, Options};
 use crate::scene::prune::prune;
 
@@ -54,7 +54,8 @@ pub fn run(args: &InspectArgs) -> Result<ExitCode> {
     let out = folder_or_default(args.out.as_deref(), &args.scene, FOLDER, &[EXR])?;
     let mut scene = args.overrides.load(&args.scene, true)?;
     args.overrides.apply(&mut scene)?;
-    let _folder = OutputFolder::prepare(&out, PAGE)?;
+    let files = inspect::files();
+    let _folder = Inputs::of_scene(&scene).prepare_folder(&out, PAGE, files.iter().map(String::as_str))?;
     prune(&mut scene);
     let options = Options { goal: args.overrides.goal(), ..Options::default() };
     let inspection = inspect::inspect(&scene, &options, &[on], &bar)?;

@@ -92,7 +92,6 @@ impl Wanted {
                 }
             }
         }
-        wanted.pictures.iter().try_for_each(|picture| output::check_writable(&picture.path))?;
         Ok(wanted)
     }
 

@@ -8,9 +8,10 @@ use std::process::ExitCode;
 use clap::{Args, Command};
 use clap_mangen::Man;
 
+use super::inputs::Inputs;
 use super::{OUTPUT, interrupt};
 use crate::core::error::{Error, Result};
-use crate::output::{OutputFolder, write_file};
+use crate::output::write_file;
 
 /// The program and its version, at the foot of pages.
 const SOURCE: &str = concat!("moire ", env!("CARGO_PKG_VERSION"));
@@ -36,7 +37,7 @@ pub fn run(args: &ManArgs, mut command: Command) -> Result<ExitCode> {
     };
     let commands: Vec<&Command> = iter::once(&command).chain(command.get_subcommands()).collect();
     let file = |command: &Command| format!("{}.1", command.get_display_name().unwrap_or(command.get_name()));
-    let _folder = OutputFolder::prepare(folder, &file(&command))?;
+    let _folder = Inputs::default().prepare_folder(folder, &file(&command), [])?;
     commands.into_iter().try_for_each(|own| write_file(&folder.join(file(own)), &page(own)?))?;
     Ok(ExitCode::SUCCESS)
 }

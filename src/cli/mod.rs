@@ -1,11 +1,13 @@
 //! The command line: one file per subcommand, each with its arguments and a `run`.
 
 pub mod account;
+mod checksums;
 pub mod compare;
 pub mod completions;
 pub mod devices;
 mod display;
 mod help;
+mod inputs;
 pub mod inspect;
 mod interrupt;
 mod layers;
@@ -40,11 +42,11 @@ mod words;
 
 use std::fmt::Display;
 use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::path::Path;
 use std::process::ExitCode;
 
 use crate::core::error::{Error, Result};
 use crate::core::panics;
+use crate::core::printable::printable;
 use crate::gpu;
 use words::named_parser;
 
@@ -81,10 +83,15 @@ pub fn prepare_process() {
     }));
 }
 
-/// Prints a line on stderr. If stderr cannot be written (a closed pipe, a full disk) the work
-/// continues, and the exit code still reports the result.
+/// Prints a line on stderr, without characters that a terminal obeys, as files may have them in names and texts. If
+/// stderr cannot be written (a closed pipe, a full disk) the work continues, and the exit code still reports the result.
 pub fn notify(line: impl Display) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    notify_styled(&printable(&line.to_string()));
+}
+
+/// Prints lines that may have styles of our own.
+fn notify_styled(lines: &str) {
+    let _ = writeln!(io::stderr().lock(), "{lines}");
 }
 
 /// Returns the exit code of a command and prints its error.
@@ -98,16 +105,18 @@ pub fn exit_code(result: Result<ExitCode>) -> ExitCode {
 
 /// Prints an error with its place and help.
 fn tell(error: Error) {
+    let error = error.printable();
     let plain = error.to_string();
     // The excerpt of a scene file is formatted by a library, whose panics are contained too.
     let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
-    notify(report.unwrap_or(plain));
+    notify_styled(&report.unwrap_or(plain));
 }
 
-/// Prints a result on stdout. A reader that stops early, such as `head`, is not an error.
+/// Prints a result on stdout, without characters that a terminal obeys. A reader that stops early, such as `head`, is not
+/// an error.
 fn print(text: &str) -> Result<()> {
     let mut stdout = io::stdout().lock();
-    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+    match writeln!(stdout, "{}", printable(text)).and_then(|()| stdout.flush()) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
         _ => Ok(()),
     }
@@ -120,16 +129,4 @@ fn print_bytes(bytes: &[u8]) -> Result<()> {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
         _ => Ok(()),
     }
-}
-
-/// Refuses to overwrite `input`, described by `what` in the message.
-fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
-    let same = output.canonicalize().is_ok_and(|o| input.canonicalize().is_ok_and(|i| i == o));
-    if !same {
-        return Ok(());
-    }
-    Err(Error::with_help(
-        format!("{}: this is {what}, which the picture would replace", output.display()),
-        "choose another name for the picture with -o",
-    ))
 }

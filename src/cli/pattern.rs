@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use serde_json::json;
 
+use super::inputs::Inputs;
 use super::{interrupt, named_parser};
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
@@ -66,7 +67,7 @@ pub fn run(args: &PatternArgs) -> Result<ExitCode> {
     interrupt::ends_at_once()?;
     let samples = samples(args)?;
     if let Some(path) = &args.out {
-        output::check_writable(path)?;
+        Inputs::default().check_picture(path)?;
     }
     let set = Set { pattern: args.name, samples, seed: args.seed, pair: args.pair };
     let count = spectrum::realisations_for(samples);

@@ -2,17 +2,23 @@
 //! file, the options as typed, and what the render tells. Out: its text; and from the text of a picture the parts that
 //! make it again.
 
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::core::checksum::Checksum;
 use crate::core::error::{Error, Result};
 use crate::output::record::ascii;
+use crate::render::Picture;
 use crate::scene::SceneFile;
 
 /// What `program` of a record is.
 const PROGRAM: &str = "moire";
+/// The commit of the sources, if the program was built in a checkout.
+pub(super) const COMMIT: Option<&str> = option_env!("MOIRE_COMMIT");
 
-/// How a picture was made.
+/// How a picture was made. The time is no part, so that equal renders have equal files.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Record {
     /// The program that wrote it.
@@ -21,12 +27,16 @@ pub struct Record {
     /// What its sources were, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The time is no part, so that equal renders have equal files.
     pub scene: SceneRecord,
+    /// The files that the scene was read from and its textures; none of the program's own.
+    #[serde(default)]
+    pub files: Vec<FileRecord>,
     /// The options that decide pixels, as typed.
     pub options: Vec<String>,
-    /// What rendered.
+    /// What rendered, and by which version of its driver.
     pub device: String,
+    #[serde(default)]
+    pub driver: Option<String>,
     /// The settings that were in force, for people.
     #[serde(default)]
     pub settings: Value,
@@ -39,10 +49,10 @@ pub struct SceneRecord {
     pub path: String,
     /// Bytes of the file.
     pub bytes: u64,
-    /// Its checksum; none of a model, which is read in parts.
+    /// Its checksum.
     #[serde(default)]
     pub crc32: Option<u32>,
-    /// The whole file, unless it is too long or no text.
+    /// The whole file, unless it is too long, no text or a model.
     #[serde(default)]
     pub text: Option<String>,
     /// Why there is no text.
@@ -53,17 +63,83 @@ pub struct SceneRecord {
     pub arrays: Vec<String>,
 }
 
+/// A file that was read.
+#[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// From the folder in which the command was typed.
+    pub path: String,
+    #[serde(flatten)]
+    pub checksum: Checksum,
+}
+
+/// Returns a path without components that name the folder itself, so that equal names are equal.
+pub(super) fn plain(path: &Path) -> PathBuf {
+    path.components().filter(|part| !matches!(part, std::path::Component::CurDir)).collect()
+}
+
+/// What rendered.
+pub struct Renderer<'a> {
+    pub device: &'a str,
+    /// Nothing where it is not known, like the picture.
+    pub driver: Option<&'a str>,
+    pub picture: Option<&'a Picture>,
+}
+
+impl<'a> Renderer<'a> {
+    /// Returns what rendered a picture.
+    pub fn of(picture: &'a Picture) -> Renderer<'a> {
+        Renderer { device: &picture.device, driver: Some(&picture.driver), picture: Some(picture) }
+    }
+
+    /// Adds to the settings the samples that were taken, of each pixel or on average, and how the picture was made where
+    /// that was chosen meanwhile.
+    fn add_samples(&self, settings: &mut Value) {
+        let Some(ran) = self.picture else { return };
+        settings["samples"] = json!(ran.film.samples);
+        if let Some(outcome) = &ran.report.outcome {
+            settings["chosen"] = json!(outcome.chosen);
+            settings["samples"] = json!(outcome.mean_samples);
+            settings["least_samples"] = json!(outcome.least_samples);
+            settings["most_samples"] = json!(outcome.most_samples);
+        }
+    }
+}
+
 impl Record {
-    /// Returns the record of a render.
-    pub fn new(path: &str, file: SceneFile, options: Vec<String>, device: &str, settings: Value) -> Record {
-        let SceneFile { bytes, crc32, text, note } = file;
+    /// Returns the record of a render. `files`: those that were read, by their names.
+    pub fn new(
+        path: &Path,
+        file: SceneFile,
+        files: impl IntoIterator<Item = (PathBuf, Checksum)>,
+        options: Vec<String>,
+        by: &Renderer<'_>,
+        mut settings: Value,
+    ) -> Record {
+        by.add_samples(&mut settings);
+        let files = files.into_iter();
+        let files: Vec<(PathBuf, Checksum)> = files.map(|(path, sum)| (plain(&path), sum)).collect();
+        let of_model = || files.iter().find(|(own, _)| *own == plain(path)).map(|(_, sum)| *sum);
+        let checksum = file.checksum.or_else(of_model);
+        let entry = |(path, checksum): (PathBuf, Checksum)| FileRecord {
+            path: path.to_string_lossy().into_owned(),
+            checksum,
+        };
         Record {
             program: PROGRAM.into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            commit: option_env!("MOIRE_COMMIT").map(String::from),
-            scene: SceneRecord { path: path.into(), bytes, crc32, text, note, arrays: Vec::new() },
+            commit: COMMIT.map(String::from),
+            scene: SceneRecord {
+                path: path.to_string_lossy().into_owned(),
+                bytes: checksum.map_or(0, |sum| sum.bytes),
+                crc32: checksum.map(|sum| sum.crc32),
+                text: file.text,
+                note: file.note,
+                arrays: Vec::new(),
+            },
+            files: files.into_iter().map(entry).collect(),
             options,
-            device: device.into(),
+            device: by.device.into(),
+            driver: by.driver.map(String::from),
             settings,
         }
     }
@@ -86,5 +162,12 @@ impl Record {
             return Ok(record);
         }
         Err(failed(format!("it is of another program, {:?}", record.program)))
+    }
+}
+
+impl SceneRecord {
+    /// Returns length and checksum of the file, if both are recorded.
+    pub fn checksum(&self) -> Option<Checksum> {
+        self.crc32.map(|crc32| Checksum { bytes: self.bytes, crc32 })
     }
 }

@@ -9,18 +9,21 @@ use std::time::Instant;
 use clap::ArgMatches;
 
 use super::account;
+use super::checksums::{Checksums, Files};
+use super::inputs::Inputs;
 use super::layers::Wanted;
 use super::outputs::{Outputs, check_distinct, default_name};
 use super::progress::Bar;
+use super::record::Renderer;
 pub use super::render_args::RenderArgs;
-use super::replay::{self, Replay};
+use super::replay::{self, Recorded, Replay};
 use super::report;
 use super::watch;
-use crate::core::error::Result;
+use crate::core::error::{Error, Result};
 use crate::core::film::{Film, Placement};
 use crate::core::progress::Progress;
 use crate::gpu::DeviceSelect;
-use crate::output::{self, WriteOptions};
+use crate::output::WriteOptions;
 use crate::render::{self, Kept, On, Options, Picture, Tuning};
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
@@ -32,10 +35,18 @@ use crate::texture::source::{OrientationUse, ProfileUse, TextureSource};
 
 /// Renders. `matches`: the arguments as they were typed.
 pub fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<ExitCode> {
-    let Some(picture) = &args.from else { return start(Job::new(args, matches, None)?) };
-    let replay = Replay::open(picture)?;
-    let (args, matches) = replay.arguments(matches)?;
-    start(Job::new(&args, &matches, Some(&replay))?)
+    let Some(picture) = &args.from else {
+        if let Some(name) = args.without.first() {
+            let what =
+                format!("--without {name}: it leaves out options of a record, and no picture is named");
+            return Err(Error::with_help(what, "name a picture with --from PICTURE in place of the scene"));
+        }
+        return start(Job::new(args, matches, None)?);
+    };
+    let mut replay = Replay::open(picture)?;
+    let (args, matches) = replay.arguments(matches, &args.without)?;
+    let made = Job::new(&args, &matches, Some(&replay)).and_then(start);
+    made.map_err(|error| replay.told(error))
 }
 
 fn start(job: Job<'_>) -> Result<ExitCode> {
@@ -66,6 +77,8 @@ pub(super) struct Stage {
     pub scene: Scene,
     /// What pictures record of the scene's file.
     file: SceneFile,
+    /// Files with the names that they have in records, where these are others.
+    names: Vec<(PathBuf, PathBuf)>,
     wanted: Wanted,
     /// Settings that were chosen implicitly, and what the scene has no use for.
     chosen: Option<&'static str>,
@@ -110,30 +123,32 @@ impl<'a> Job<'a> {
     pub fn stage(&self) -> Result<Stage> {
         let args = self.args;
         let reading = args.overrides.reading(args.layers.numbers_meshes());
-        let read = match self.replay {
-            Some(replay) => replay.load(&reading),
-            None => scene::load_recorded(self.path, &reading),
+        let with_option = |error| args.overrides.with_option(error);
+        let Recorded { mut scene, file, names } = match self.replay {
+            Some(replay) => replay.load(&reading).map_err(with_option)?,
+            None => {
+                let (scene, file) = scene::load_recorded(self.path, &reading).map_err(with_option)?;
+                Recorded { scene, file, names: Vec::new() }
+            }
         };
-        let (mut scene, file) = read.map_err(|error| args.overrides.with_option(error))?;
         let chosen = args.overrides.apply(&mut scene)?;
         args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
-        for path in &self.outputs.files {
-            output::check_writable(path)?;
-            check_inputs_kept(path, &scene)?;
-            args.from
-                .iter()
-                .try_for_each(|from| super::check_input_kept(path, from, "the picture of --from"))?;
-        }
+        let inputs = args
+            .from
+            .iter()
+            .fold(Inputs::of_scene(&scene), |inputs, from| inputs.and(from, "the picture of --from"));
+        self.outputs.files.iter().try_for_each(|path| inputs.check_picture(path))?;
         let wanted = Wanted::new(&args.layers, &self.outputs, &scene)?;
+        wanted.paths().try_for_each(|path| inputs.check_picture(path))?;
         check_distinct(self.outputs.files.iter().map(PathBuf::as_path).chain(wanted.paths()))?;
         let dropped = prune(&mut scene);
-        Ok(Stage { scene, file, wanted, chosen, dropped })
+        Ok(Stage { scene, file, names, wanted, chosen, dropped })
     }
 
     /// Renders and writes all outputs. `start`: when the work on this picture began.
     pub fn render(&self, stage: Stage, kept: &mut Kept, show: &Show<'_>, start: Instant) -> Result<()> {
         let (args, on, outputs) = (self.args, &self.on[..], &self.outputs);
-        let Stage { scene, file, wanted, chosen, dropped } = stage;
+        let Stage { scene, file, names, wanted, chosen, dropped } = stage;
         let is_told = args.verbose && !show.is_preview;
         if let (Some(chosen), true) = (chosen, is_told) {
             super::notify(chosen);
@@ -149,6 +164,8 @@ impl<'a> Job<'a> {
             return wanted.write(outputs, &Film::new(size[0], size[1], 1), &layers, &scene, &write);
         }
         let loaded = start.elapsed().as_secs_f64();
+        let has_record = !args.no_metadata && !show.is_preview;
+        let checksums = has_record.then(|| Checksums::begin(&scene));
         let mut ran = render::render_kept(&scene, &options, on, kept, show.progress)?;
         // From the start of the process: reading the scene file is part of loading.
         ran.report.seconds.load += loaded;
@@ -163,6 +180,8 @@ impl<'a> Job<'a> {
         }
         ran.report.left_out.extend(dropped);
         self.add_warnings(&scene, &mut ran);
+        let files = checksums.map(Checksums::finish);
+        ran.report.warnings.extend(files.iter().flat_map(Files::warnings));
         if let Some(told) = show.told {
             let all = ran.report.warnings.clone();
             ran.report.warnings.retain(|warning| !told.borrow().contains(warning));
@@ -172,9 +191,12 @@ impl<'a> Job<'a> {
         show.bar.finish();
 
         let clock = Instant::now();
-        let settings = args.overrides.report(&scene, args.crop, args.keep_everything);
-        let record = (!args.no_metadata)
-            .then(|| replay::record_of(args, self.matches, (self.path, file), &scene, &ran.device).text());
+        let settings = replay::settings_of(args, &scene);
+        let record = files.map(|files| {
+            let files = files.named(&names);
+            let by = Renderer::of(&ran);
+            replay::record_of(args, self.matches, (self.path, file), files, &scene, &by).text()
+        });
         let write = WriteOptions { record: record.as_deref(), ..write };
         wanted.write(outputs, &ran.film, &layers, &scene, &write)?;
         ran.report.seconds.write = clock.elapsed().as_secs_f64();
@@ -213,17 +235,11 @@ impl<'a> Job<'a> {
         account::add_warnings(self.args, scene, ran);
         let idle = self.args.files.without_effect(&self.outputs, self.args.layers.has_beauty());
         ran.report.warnings.extend(idle);
-        ran.report.warnings.extend(self.replay.and_then(|replay| replay.difference(&ran.device)));
+        if let Some(replay) = self.replay {
+            let told = [replay.difference(&ran.device, &ran.driver), replay.unknown_files(scene)];
+            ran.report.warnings.extend(told.into_iter().flatten());
+        }
     }
-}
-
-/// Refuses an output that would overwrite an input file.
-pub(super) fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
-    super::check_input_kept(output, &scene.path, "the scene file")?;
-    scene.textures.iter().try_for_each(|t| {
-        let what = format!("the file of texture \"{}\"", t.name);
-        t.content.files().into_iter().try_for_each(|file| super::check_input_kept(output, file, &what))
-    })
 }
 
 /// Prints how each texture is stored, and what was changed as its files say: orientation and colours.

@@ -18,6 +18,7 @@ use crate::render::{EstimateChoice, MipChoice, TexelChoice, Tuning};
 /// Options change the scene before it is rendered; `--set` changes any value of it. Pictures carry a record by which
 /// `--from` renders them again.
 #[derive(Args, Debug)]
+#[command(override_usage = "moire render [OPTIONS] <SCENE>\n       moire render [OPTIONS] --from <PICTURE>")]
 pub struct RenderArgs {
     /// Scene file, model (glTF, OBJ, PLY, STL), @NAME of a scene of the program, or - for standard input
     #[arg(required_unless_present = "from")]
@@ -27,6 +28,11 @@ pub struct RenderArgs {
     /// It stands in place of a scene. Other options override those of the record.
     #[arg(long, value_name = "PICTURE", conflicts_with = "scene", help_heading = VIEW)]
     pub from: Option<PathBuf>,
+    /// Leave options of the record out, such as crop,white-balance
+    ///
+    /// With --from: recorded options by their names, separated by commas.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = VIEW)]
+    pub without: Vec<String>,
     /// Picture to write: .exr .hdr .png .jpg .tif, or - [default: the scene's name with .png]
     ///
     /// The ending selects the format: exr and hdr hold linear floats, png, jpg and tif are for screens. May be given

@@ -1,14 +1,16 @@
 //! `moire sheet SCENE --vary NAME=VALUES`: settings side by side in one labelled picture, or one page. All invalid input is
 //! refused before the device starts; a combination that the scene does not allow is told in its cell.
 
+mod words;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::display::DisplayArgs;
+use super::inputs::Inputs;
 use super::outputs::{check_distinct, check_reference, name_of};
 use super::overrides::Overrides;
 use super::progress::Bar;
-use super::render::check_inputs_kept;
 use super::render_args::parse_part;
 use super::vary::{self, Combination, Vary};
 use super::vary_conflicts;
@@ -22,7 +24,6 @@ use crate::lab::metrics::read_picture;
 use crate::lab::sheet::plan::{Cell, Job, Plan, ReferenceChoice, View};
 use crate::lab::sheet::record::Record;
 use crate::lab::sheet::{self, Content};
-use crate::lab::study::{label, quote};
 use crate::output::{self, DisplayTransform, Format, Named, WriteOptions};
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
@@ -125,11 +126,9 @@ pub fn run(args: &SheetArgs) -> Result<ExitCode> {
     };
     check_reference(args.reference.as_deref(), "none")?;
     let outputs = outputs(args)?;
-    let (plan, warnings) = plan(args)?;
+    let Planned { plan, warnings, inputs } = plan(args)?;
     sheet::check(&plan)?;
-    for output in &outputs {
-        plan.jobs().try_for_each(|job| check_inputs_kept(&output.path, &job.scene))?;
-    }
+    outputs.iter().try_for_each(|output| inputs.check_file(&output.path))?;
 
     let gpu = Gpu::open(&select)?;
     let sheet = sheet::render(&gpu, &plan, &bar);
@@ -162,7 +161,6 @@ fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let is_page = matches!(ending.as_deref(), Some("html" | "htm"));
         if is_page {
-            output::check_file_writable(&path)?;
             return Ok(Output { path, is_page });
         }
         let format = output::format_of(&path).ok();
@@ -172,15 +170,21 @@ fn outputs(args: &SheetArgs) -> Result<Vec<Output>> {
                 "end its name with one of .png, .jpg, .tif, .html",
             ));
         }
-        output::check_writable(&path)?;
         Ok(Output { path, is_page })
     };
     check_distinct(paths.iter().map(PathBuf::as_path))?;
     paths.into_iter().map(output).collect()
 }
 
-/// Returns what is to be rendered, and warnings about it.
-fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
+/// What is to be rendered, warnings about it, and the files that it reads.
+struct Planned {
+    plan: Plan,
+    warnings: Vec<String>,
+    inputs: Inputs,
+}
+
+/// Returns what is to be rendered.
+fn plan(args: &SheetArgs) -> Result<Planned> {
     let base = (&args.overrides, &args.display);
     vary_conflicts::check(&args.vary, base)?;
     let (axes, combinations) = vary::combine(&args.vary, base)?;
@@ -191,11 +195,13 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
         ));
     }
     let base = args.overrides.load(&args.scene, false)?;
+    let mut inputs = Inputs::of_scene(&base);
     let samples = args.reference_spp.map(|all| all.div_ceil(2));
     let mut scenes = Vec::with_capacity(combinations.len());
     for combination in &combinations {
         let read = combination.overrides.load(&args.scene, false);
         let mut scene = read.map_err(|error| of_scene(&combination.settings, error))?;
+        inputs.add_scene(&scene);
         let file = scene.clone();
         let applied = combination.overrides.apply(&mut scene).map(|_| scene);
         scenes.push((file, applied));
@@ -203,7 +209,7 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
     let overrides = combinations.first().map_or(&args.overrides, |first| &first.overrides);
     let idle = overrides.idle_spp();
     let mut warnings: Vec<String> = idle.into_iter().map(String::from).collect();
-    let title = title(args, idle.is_some());
+    let title = words::title(args, idle.is_some());
     let mut cells = Vec::with_capacity(combinations.len());
     for (combination, (file, applied)) in combinations.into_iter().zip(scenes) {
         let job = match applied {
@@ -212,14 +218,17 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
         };
         let told = job.iter().flat_map(|job| advice::of_scene(&job.scene)).collect::<Vec<_>>();
         warnings.extend(told.into_iter().filter(|told| !warnings.contains(told)).collect::<Vec<_>>());
-        let command = command(args, &combination);
+        let command = words::command(args, &combination);
         let Combination { at, settings, film_of, display, .. } = combination;
         cells.push(Cell { at, settings, command, film_of, display: display.transform(), job });
     }
     let reference = match args.reference.as_deref() {
         None => ReferenceChoice::Rendered { samples },
         Some("none") => ReferenceChoice::None,
-        Some(name) => ReferenceChoice::File { name: name.to_owned(), film: read_picture(Path::new(name))? },
+        Some(name) => {
+            inputs = inputs.and(Path::new(name), "the reference");
+            ReferenceChoice::File { name: name.to_owned(), film: read_picture(Path::new(name))? }
+        }
     };
     if args.diff && matches!(reference, ReferenceChoice::None) {
         return Err(Error::with_help(
@@ -236,7 +245,8 @@ fn plan(args: &SheetArgs) -> Result<(Plan, Vec<String>)> {
     };
     let scene = args.scene.display().to_string();
     let display = args.display.transform();
-    Ok((Plan { title, scene, axes, cells, reference, repeats: args.repeats, view, display }, warnings))
+    let plan = Plan { title, scene, axes, cells, reference, repeats: args.repeats, view, display };
+    Ok(Planned { plan, warnings, inputs })
 }
 
 /// Returns the work of a cell. `base` is the scene as it is read without what varies, `file` with it.
@@ -268,26 +278,6 @@ fn job(
     prune(&mut scene);
     prune(&mut reference);
     Ok(Job { scene, reference, goal })
-}
-
-fn title(args: &SheetArgs, is_spp_idle: bool) -> String {
-    let stem = name_of(&args.scene).to_string_lossy().into_owned();
-    let given = [args.overrides.given(), args.display.given()].concat();
-    let is_told = |name: &str| name != "size" && !(is_spp_idle && name == "spp");
-    let fixed = given.into_iter().filter(|(name, _)| is_told(name));
-    let words = fixed.map(|(name, value)| label::setting(name, &value));
-    std::iter::once(stem).chain(words).collect::<Vec<_>>().join(", ")
-}
-
-fn command(args: &SheetArgs, combination: &Combination) -> String {
-    let mut words = vec!["moire".to_owned(), "render".into(), args.scene.display().to_string()];
-    let given = [combination.overrides.given(), combination.display.given()].concat();
-    words.extend(given.into_iter().flat_map(|(name, value)| [format!("--{name}"), value]));
-    if let Some(device) = &args.device {
-        words.extend(["--device".to_owned(), device.clone()]);
-    }
-    words.extend(["-o".to_owned(), "cell.png".into()]);
-    words.iter().map(|word| quote(word)).collect::<Vec<_>>().join(" ")
 }
 
 fn write(outputs: &[Output], content: &Content) -> Result<()> {

@@ -4,11 +4,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::inputs::Inputs;
 use super::progress::Bar;
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::stability::{all, page, run::run as run_cases, text::text};
-use crate::output::OutputFolder;
 
 /// Sweep extreme cases on a device, with errors against float64
 ///
@@ -49,7 +49,11 @@ pub fn run(args: &StabilityArgs) -> Result<ExitCode> {
         Some(text) => DeviceSelect::parse(text)?,
         None => DeviceSelect::Default,
     };
-    let _folder = args.out.as_ref().map(|folder| OutputFolder::prepare(folder, page::PAGE)).transpose()?;
+    let _folder = args
+        .out
+        .as_ref()
+        .map(|folder| Inputs::default().prepare_folder(folder, page::PAGE, [page::JSON]))
+        .transpose()?;
     let gpu = Gpu::open(&select)?;
     let report = run_cases(&gpu, all(), args.only.as_deref(), &bar);
     bar.finish();

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use super::inputs::Inputs;
 use super::outputs::{check_reference, folder_or_default};
 use super::overrides::parse_size;
 use super::progress::Bar;
@@ -16,8 +17,8 @@ use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::study::format::{names, own_error};
 use crate::lab::study::method::Method;
 use crate::lab::study::record::{self, Question, Record};
-use crate::lab::study::{self, Options, ReferenceChoice, reference, steadiness};
-use crate::output::OutputFolder;
+use crate::lab::study::{self, Options, ReferenceChoice, files, reference, steadiness};
+use crate::scene::model::Scene;
 use crate::scene::prune::prune;
 use crate::scene::{MAX_SPP, Reading, Setting, is_standard_input, load_as};
 
@@ -139,7 +140,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
         (scene.width, scene.height) = (width, height);
     }
     let out = folder_or_default(args.out.as_deref(), &args.scene, FOLDER, &[record::FILE, reference::FILE])?;
-    let _folder = OutputFolder::prepare(&out, record::FILE)?;
+    let _folder = inputs(args, &scene).prepare_folder(&out, record::FILE, written(args))?;
     prune(&mut scene);
     let options = options(args, &out, started);
     let gpu = Gpu::open(&select)?;
@@ -167,6 +168,24 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
             Ok(ExitCode::SUCCESS)
         }
     }
+}
+
+/// Returns the picture that is the reference, if one is named.
+fn named_reference(args: &StudyArgs) -> Option<&Path> {
+    args.reference.as_deref().filter(|name| *name != "oracle").map(Path::new)
+}
+
+/// Returns the files that are read.
+fn inputs(args: &StudyArgs, scene: &Scene) -> Inputs {
+    named_reference(args)
+        .into_iter()
+        .fold(Inputs::of_scene(scene), |inputs, path| inputs.and(path, "the reference"))
+}
+
+/// Returns the names of the files that are written beside the record. A reference that is named is not.
+fn written(args: &StudyArgs) -> impl Iterator<Item = &'static str> {
+    let own = named_reference(args).is_none().then_some(reference::FILE);
+    files::NAMES.into_iter().chain(own)
 }
 
 fn options(args: &StudyArgs, out: &Path, started: Instant) -> Options {

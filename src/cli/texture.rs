@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use serde_json::{Value, json};
 
+use super::inputs::Inputs;
 use super::texture_levels::{Extra, Profile};
 use super::{interrupt, named_parser};
 use crate::core::counted::{counted, plural};
@@ -64,8 +65,7 @@ pub struct TextureArgs {
 pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     interrupt::ends_at_once()?;
     if let Some(path) = &args.out {
-        output::check_writable(path)?;
-        super::check_input_kept(path, &args.file, "the texture that is described")?;
+        Inputs::of(&args.file, "the texture that is described").check_picture(path)?;
     }
     let reading = ReadOptions {
         orientation: args.orientation,

@@ -7,8 +7,10 @@ use std::sync::Arc;
 
 use clap::FromArgMatches;
 
+use super::checksums::Checksums;
 use super::display::DisplayArgs;
 use super::overrides::Overrides;
+use super::record::Renderer;
 use super::render_args::RenderArgs;
 use super::replay;
 use super::{DEVICE, REPORT};
@@ -94,5 +96,7 @@ fn record(arguments: &[String], device: &str) -> Result<String> {
     let (mut scene, file) = scene::load_recorded(&path, &args.overrides.reading(false))?;
     args.overrides.apply(&mut scene)?;
     prune(&mut scene);
-    Ok(replay::record_of(&args, &matches, (&path, file), &scene, device).text())
+    let files = Checksums::begin(&scene).finish().named(&[]);
+    let by = Renderer { device, driver: None, picture: None };
+    Ok(replay::record_of(&args, &matches, (&path, file), files, &scene, &by).text())
 }

@@ -9,12 +9,12 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use super::inputs::Inputs;
 use super::progress::Bar;
 use super::render::{Job, Show};
 use crate::core::counted::counted;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::progress::Progress;
-use crate::output;
 use crate::render::{FileStamp, Kept, stamp};
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::{BuiltIn, is_standard_input};
@@ -95,7 +95,7 @@ fn check(job: &Job<'_>, scene: &Path) -> Result<()> {
         let what = format!("--watch: {}: there is no such file", scene.display());
         return Err(Error::new(what).of_kind(ErrorKind::File));
     }
-    job.outputs.files.iter().try_for_each(|path| output::check_writable(path))
+    job.outputs.files.iter().try_for_each(|path| Inputs::default().check_picture(path))
 }
 
 /// How a picture tells of itself, and what was told of the one before.

@@ -1,11 +1,14 @@
 //! The error type: kind, place, and the next step. Every variant except an interruption ends a command with exit code
 //! 2; none is a panic.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::iter;
 use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
+
+use super::printable::{printable, printable_in_place};
 
 /// The result of operations that may fail with an [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -118,6 +121,38 @@ impl Error {
             *message = format!("{place}: {message}");
         }
         self
+    }
+
+    /// Returns the error without characters that a terminal obeys.
+    pub(crate) fn printable(mut self) -> Self {
+        let in_line = |text: &mut String| {
+            if let Cow::Owned(shown) = printable(text) {
+                *text = shown;
+            }
+        };
+        match &mut self {
+            Error::Scene { message, label, source_code, help, .. } => {
+                [message, label].into_iter().chain(help).for_each(in_line);
+                let name = printable(source_code.name()).into_owned();
+                *source_code = Arc::new(NamedSource::new(name, printable_in_place(source_code.inner())));
+            }
+            Error::Plain { message, help, .. } => iter::once(message).chain(help).for_each(in_line),
+            Error::Interrupted => {}
+        }
+        self
+    }
+
+    /// Returns a mistake in a text as one in a copy of it that is kept elsewhere.
+    pub(crate) fn in_copy(mut self, place: &str) -> Self {
+        match &mut self {
+            Error::Scene { message, source_code, .. } => {
+                let name = format!("{} in {place}", source_code.name());
+                *source_code = Arc::new(NamedSource::new(name, source_code.inner().clone()));
+                *message = format!("{place}: {message}");
+                self
+            }
+            _ => self.within(place),
+        }
     }
 
     /// Returns the kind of the error.

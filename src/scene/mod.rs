@@ -33,8 +33,8 @@ mod whole;
 pub use builder::SceneBuilder;
 pub use built_in::BuiltIn;
 pub use formats::{
-    ModelView, Reading, STANDARD_INPUT, SceneFile, is_model, is_standard_input, load, load_as, load_recorded,
-    load_seen_by, model_endings, model_view, parse, parse_as, path_of, setting_keys,
+    ModelView, Reading, STANDARD_INPUT, SceneFile, is_model, is_scene_name, is_standard_input, load, load_as,
+    load_recorded, load_seen_by, model_endings, model_view, parse, parse_as, path_of, setting_keys,
 };
 pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};
 pub use setting::Setting;

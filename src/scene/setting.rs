@@ -2,6 +2,7 @@
 //! to the value and the value itself, each with its place in the text. What they mean is the format's affair.
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use toml::de::DeValue;
@@ -21,6 +22,8 @@ pub struct Setting {
     pub(super) value: Range<usize>,
     /// The value as TOML has it, if it was written as a number that TOML has not, such as `.5`.
     pub(super) number: Option<String>,
+    /// The folder to which paths in the value are relative; the current one if it is empty.
+    folder: PathBuf,
 }
 
 /// One of the keys that lead to a value.
@@ -44,6 +47,22 @@ impl Setting {
     /// and the key; a part that holds a dot or `=` is quoted. The value is TOML, or a word without quotes.
     pub fn parse(text: &str) -> Result<Setting> {
         text.parse().map_err(|what| Error::new(format!("--set {text:?}: {what}")))
+    }
+
+    /// Returns the setting with paths that are relative to this folder.
+    pub fn within(mut self, folder: &Path) -> Setting {
+        self.folder = folder.to_owned();
+        self
+    }
+
+    /// Returns the names of the keys that lead to the value.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(|key| key.name.as_str())
+    }
+
+    /// Returns the folder to which paths in the value are relative.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// Returns the text that was read.
@@ -85,7 +104,7 @@ impl FromStr for Setting {
         if word.is_empty() {
             return Err(format!("the value after the = is missing; {EXAMPLE}"));
         }
-        Ok(Setting { keys, number: number(word), value, text: text.to_owned() })
+        Ok(Setting { keys, number: number(word), value, text: text.to_owned(), folder: PathBuf::new() })
     }
 }
 

@@ -48,6 +48,7 @@ mod halves;
 #[cfg(unix)]
 mod help;
 #[cfg(unix)]
+mod inputs;
 mod interrupt;
 mod layering;
 mod layers;

@@ -1,7 +1,10 @@
 //! Records in pictures, and `moire render --from`, which makes a picture again: the same bytes in every format, options
 //! that override the recorded ones, textures that are found or told, and records that nobody should obey.
 
+mod files;
 mod hostile;
+mod messages;
+mod precedence;
 mod scenes;
 
 use std::fs;

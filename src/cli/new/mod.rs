@@ -15,6 +15,7 @@ mod text;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::inputs::Inputs;
 use super::interrupt;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::named::named_enum;
@@ -147,16 +148,15 @@ fn check_name(out: &Path) -> Result<()> {
 
 /// Writes the scene and the files of the program beside it, unless one of them would replace another file.
 fn write(args: &NewArgs, out: &Path, text: &str, copies: &Copies) -> Result<()> {
-    for input in args.texture.iter().chain(&args.model).chain(&args.what) {
-        super::check_input_kept(out, input, "a file of the scene")?;
-    }
+    let read = args.texture.iter().chain(&args.model).chain(&args.what);
+    let inputs = read.fold(Inputs::default(), |inputs, path| inputs.and(path, "a file of the scene"));
     let folder = out.parent().unwrap_or(Path::new(""));
     let beside: Vec<(PathBuf, &[u8])> =
         copies.files().map(|(name, bytes)| (folder.join(name), bytes)).collect();
     for (path, bytes) in
         beside.iter().map(|(path, bytes)| (path.as_path(), *bytes)).chain([(out, text.as_bytes())])
     {
-        output::check_file_writable(path)?;
+        inputs.check_file(path)?;
         let is_other = path.exists() && std::fs::read(path).map_or(true, |there| there != bytes);
         if is_other && !args.force {
             return Err(Error::with_help(

@@ -107,6 +107,12 @@ pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection, view: &[Stri
     Ok(files)
 }
 
+/// Returns the names of all files that may be written.
+pub fn files() -> Vec<String> {
+    let own = [PAGE, EXR, PICTURE].into_iter().map(String::from);
+    own.chain(Aov::ALL.iter().map(|aov| file_of(*aov))).collect()
+}
+
 /// Returns the file of a layer's picture.
 pub fn file_of(aov: Aov) -> String {
     format!("{}.png", aov.name())

@@ -18,4 +18,4 @@ pub mod uses;
 
 pub use charts::{Charts, Coordinates, charts, readers};
 pub use density::Density;
-pub use folder::{EXR, Inspected, Inspection, PAGE, file_of, inspect, write};
+pub use folder::{EXR, Inspected, Inspection, PAGE, file_of, files, inspect, write};

@@ -13,7 +13,7 @@ use crate::output;
 
 /// The file that is written first.
 pub const PAGE: &str = "stability.html";
-const JSON: &str = "stability.json";
+pub const JSON: &str = "stability.json";
 
 pub fn json(report: &StabilityReport) -> Result<String> {
     serde_json::to_string_pretty(report).map_err(|e| Error::new(format!("the report as JSON: {e}")))

@@ -14,6 +14,9 @@ use super::record::{self, PointRecord, Record};
 use super::showcase::Showcase;
 use super::{page, stages};
 
+/// Every file but the record and the reference.
+pub const NAMES: [&str; 5] = ["study.csv", "error-time.svg", "error-rays.svg", "stages.svg", "index.html"];
+
 /// Saves the record from which an interrupted study is resumed.
 pub fn save(folder: &Path, record: &Record) -> Result<()> {
     let json =
@@ -25,13 +28,8 @@ pub fn write_all(folder: &Path, record: &Record, showcase: &Showcase) -> Result<
     let plots = Plots::new(record);
     let page = page::html(record, showcase, &plots)?;
     save(folder, record)?;
-    for (name, text) in [
-        ("study.csv", csv(record)),
-        ("error-time.svg", plots.time[0].clone()),
-        ("error-rays.svg", plots.rays[0].clone()),
-        ("stages.svg", plots.stages[0].clone()),
-        ("index.html", page),
-    ] {
+    let [time, rays, stages] = [&plots.time[0], &plots.rays[0], &plots.stages[0]].map(String::clone);
+    for (name, text) in NAMES.into_iter().zip([csv(record), time, rays, stages, page]) {
         output::write_file(&folder.join(name), text.as_bytes())?;
     }
     Ok(())

@@ -13,7 +13,7 @@ pub mod bootstrap;
 pub mod choice;
 mod course;
 mod extrapolation;
-mod files;
+pub mod files;
 mod fit;
 pub mod format;
 pub mod halves;

@@ -42,6 +42,10 @@ pub fn read(path: &Path) -> Result<Option<String>> {
     if path.is_dir() {
         return Err(failed("it is a folder"));
     }
+    // Opening a pipe would wait for whoever writes.
+    if path.metadata().is_ok_and(|known| !known.is_file()) {
+        return Err(failed("it is not a regular file"));
+    }
     let mut file = BufReader::new(File::open(path).map_err(|error| failed(&error.to_string()))?);
     let mut start = Vec::new();
     (&mut file).take(8).read_to_end(&mut start).map_err(|error| failed(&error.to_string()))?;

@@ -89,8 +89,7 @@ pub fn load_as(path: &Path, reading: &Reading<'_>) -> Result<Scene> {
 /// Reads a scene as [`load_as`] does, and returns what pictures record of its file.
 pub fn load_recorded(path: &Path, reading: &Reading<'_>) -> Result<(Scene, SceneFile)> {
     let (scene, file) = load_told(path, reading, SceneFile::of_bytes)?;
-    let bytes = || path.metadata().map_or(0, |known| known.len());
-    Ok((scene, file.unwrap_or_else(|| SceneFile::of_model(bytes()))))
+    Ok((scene, file.unwrap_or_else(SceneFile::of_model)))
 }
 
 /// Reads a scene, and returns what `tell` makes of the bytes of its file, unless it is a model.
@@ -150,6 +149,11 @@ fn no_camera(file: &str, camera: Option<&str>) -> Result<()> {
 fn format_of(path: &Path) -> &'static Format {
     let [first, ..] = &FORMATS;
     FORMATS.iter().find(|format| is_named(path, format)).unwrap_or(first)
+}
+
+/// Returns true if the ending of a file's name is that of a scene file.
+pub fn is_scene_name(path: &Path) -> bool {
+    FORMATS.iter().any(|format| is_named(path, format))
 }
 
 /// Returns true if the ending of a file's name is one of the format.

@@ -1,18 +1,16 @@
 //! The file of a scene as pictures record it. In: its bytes. Out: their number and checksum, and the text where it is
 //! not too long.
 
-use flate2::Crc;
+use crate::core::checksum::Checksum;
 
 /// Longer texts are left out of records: scenes that a person writes have some KB.
 pub const MAX_RECORDED_BYTES: usize = 256 << 10;
 
 /// The file of a scene.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneFile {
-    /// Its length.
-    pub bytes: u64,
-    /// Its CRC-32, as gzip has it; none of a model.
-    pub crc32: Option<u32>,
+    /// Its length and checksum; none of a model, which is among the files that its scene was read from.
+    pub checksum: Option<Checksum>,
     /// Its text.
     pub text: Option<String>,
     /// The reason if there is no text.
@@ -22,8 +20,6 @@ pub struct SceneFile {
 impl SceneFile {
     /// Returns what is recorded of a scene's bytes.
     pub fn of_bytes(bytes: &[u8]) -> SceneFile {
-        let mut crc = Crc::new();
-        crc.update(bytes);
         let is_short = bytes.len() <= MAX_RECORDED_BYTES;
         let text = std::str::from_utf8(bytes).ok().filter(|_| is_short).map(String::from);
         let note = text.is_none().then(|| {
@@ -33,12 +29,12 @@ impl SceneFile {
                 MAX_RECORDED_BYTES >> 10
             )
         });
-        SceneFile { bytes: bytes.len() as u64, crc32: Some(crc.sum()), text, note }
+        SceneFile { checksum: Some(Checksum::of(bytes)), text, note }
     }
 
-    /// Returns what is recorded of a model of this length.
-    pub fn of_model(bytes: u64) -> SceneFile {
-        let note = "the scene is a model, of which only the name is recorded";
-        SceneFile { bytes, crc32: None, text: None, note: Some(note.into()) }
+    /// Returns what is recorded of a model.
+    pub fn of_model() -> SceneFile {
+        let note = "the scene is a model, of which name, length and checksum are recorded";
+        SceneFile { checksum: None, text: None, note: Some(note.into()) }
     }
 }

@@ -13,13 +13,13 @@ use super::{FORMATS, SCENE, record_of, refused, rendered, stage};
 use crate::support::gradient;
 
 /// Returns the bytes of a small picture with this record.
-fn picture(format: Format, text: &str) -> Vec<u8> {
+pub fn picture(format: Format, text: &str) -> Vec<u8> {
     let text = &record::ascii(text);
     to_bytes_with(&gradient(4, 4), format, &WriteOptions { record: Some(text), ..Default::default() })
         .unwrap()
 }
 
-fn honest() -> Value {
+pub fn honest() -> Value {
     json!({
         "program": "moire",
         "version": "0.1.0",
@@ -30,7 +30,7 @@ fn honest() -> Value {
 }
 
 /// Writes `x.png` with a record, lets it be made again, and returns what is said.
-fn told_of(folder: &Path, text: &str) -> String {
+pub fn told_of(folder: &Path, text: &str) -> String {
     fs::write(folder.join("x.png"), picture(Format::Png, text)).unwrap();
     refused(folder, &["--from", "x.png", "-o", "y.png"])
 }
@@ -119,15 +119,50 @@ fn texts_that_are_no_record_are_told() {
 fn scenes_of_records_keep_the_rules_of_scenes() {
     let folder = stage();
     let mut record = honest();
+    // As long as it was.
     record["scene"]["text"] = json!(SCENE.replace("vertical_fov", "vertical_fog"));
     let told = told_of(folder.path(), &record.to_string());
-    assert!(told.contains("vertical_fog"), "{told}");
+    assert!(told.contains("vertical_fog") && told.contains("the record of x.png"), "{told}");
     // Without a text the record would have to name a file that is there.
-    record["scene"] = json!({ "path": "/none/secret.toml", "bytes": 3 });
+    record["scene"] = json!({ "path": "/none/secret.toml", "bytes": 3, "crc32": 3 });
     let told = told_of(folder.path(), &record.to_string());
     assert!(told.contains("secret.toml is missing"), "{told}");
     record["scene"] = json!({ "path": "-", "bytes": 3 });
-    assert!(told_of(folder.path(), &record.to_string()).contains("is missing"));
+    assert!(told_of(folder.path(), &record.to_string()).contains("has no ending of a scene"));
+}
+
+/// Only what ends as scenes do is opened, and only if it is the recorded file: nothing of others is shown.
+#[test]
+fn files_that_are_not_the_recorded_scene_are_neither_read_nor_shown() {
+    let folder = stage();
+    let secret = "token = \"s3cret\"\n";
+    for name in ["passwd", "own.toml", "own.obj", "own.ply"] {
+        fs::write(folder.path().join(name), secret).unwrap();
+        let right =
+            json!({ "path": name, "bytes": secret.len(), "crc32": crc32fast::hash(secret.as_bytes()) });
+        for scene in [
+            json!({ "path": name, "bytes": secret.len() }),
+            json!({ "path": name, "bytes": secret.len(), "crc32": 7 }),
+            if name == "passwd" { right } else { json!({ "path": name, "bytes": 0, "crc32": 0 }) },
+        ] {
+            let mut record = honest();
+            record["scene"] = scene;
+            let told = told_of(folder.path(), &record.to_string());
+            assert!(!told.contains("s3cret") && !told.contains("token"), "{told}");
+            assert!(told.contains(name), "{told}");
+        }
+    }
+}
+
+#[test]
+fn a_text_that_is_not_that_of_its_checksum_is_refused() {
+    let folder = stage();
+    for (key, value) in [("bytes", json!(SCENE.len() - 1)), ("crc32", json!(1))] {
+        let mut record = honest();
+        record["scene"][key] = value;
+        let told = told_of(folder.path(), &record.to_string());
+        assert!(told.contains("length and the checksum"), "{told}");
+    }
 }
 
 /// A few bytes that unpack to 64 MiB.

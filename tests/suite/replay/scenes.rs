@@ -32,7 +32,7 @@ fn the_scene_may_be_gone_and_its_textures_lie_beside_the_picture() {
     again();
     fs::remove_file(pictures("grass.png")).unwrap();
     let told = refused(place, &["--from", "pictures/a.png", "-o", "b.png"]);
-    for what in ["scenes/textures/grass.png is missing", "lay in scenes", "this picture in pictures"] {
+    for what in ["scenes/textures/grass.png is missing", "looked for in pictures and the current folder"] {
         assert!(told.contains(what), "{told}");
     }
     assert!(!place.join("b.png").exists());

@@ -42,10 +42,12 @@ impl<'a> Source<'a> {
         at <= self.text.len()
     }
 
-    /// Returns the path that a value means: relative to the file's folder, or to the current one if the value was
-    /// typed there.
+    /// Returns the path that a value means: relative to the file's folder, or to that of the setting.
     pub fn resolve(self, at: usize, path: &str) -> PathBuf {
-        let folder = self.path.parent().filter(|_| self.is_of_file(at));
+        let folder = match self.part(at).setting {
+            Some(setting) => Some(setting.folder()),
+            None => self.path.parent(),
+        };
         folder.unwrap_or(Path::new("")).join(path)
     }
 
