@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clap::{Args, Command};
+use clap::{Args, Command as CommandLine};
 use serde_json::{Value, json};
 
 use crate::core::error::{Error, Result};
@@ -103,7 +103,7 @@ impl Overrides {
             return error;
         };
         let name = name.trim().replace('_', "-");
-        let command = Overrides::augment_args(Command::new("moire"));
+        let command = Overrides::augment_args(CommandLine::new("moire"));
         let is_option = command.get_arguments().any(|arg| arg.get_long() == Some(name.as_str()));
         let help = is_option.then(|| format!("--{name} {} is an option of its own", value.trim()));
         error.and_help(help)

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use crate::core::checksum::Checksum;
 use crate::core::error::{Error, Result};
+use crate::integrators::adaptive::Outcome;
 use crate::output::record::ascii;
 use crate::render::Picture;
 use crate::scene::SceneFile;
@@ -80,23 +81,29 @@ pub(super) fn plain(path: &Path) -> PathBuf {
 /// What rendered.
 pub struct Renderer<'a> {
     pub device: &'a str,
-    /// Nothing where it is not known, like the picture.
-    pub driver: Option<&'a str>,
-    pub picture: Option<&'a Picture>,
+    pub driver: &'a str,
+    /// Samples a pixel, on average.
+    pub samples: u32,
+    /// How the picture was made where that was chosen meanwhile.
+    pub outcome: Option<&'a Outcome>,
 }
 
 impl<'a> Renderer<'a> {
     /// Returns what rendered a picture.
     pub fn of(picture: &'a Picture) -> Renderer<'a> {
-        Renderer { device: &picture.device, driver: Some(&picture.driver), picture: Some(picture) }
+        Renderer {
+            device: &picture.device,
+            driver: &picture.driver,
+            samples: picture.film.samples,
+            outcome: picture.report.outcome.as_ref(),
+        }
     }
 
     /// Adds to the settings the samples that were taken, of each pixel or on average, and how the picture was made where
     /// that was chosen meanwhile.
     fn add_samples(&self, settings: &mut Value) {
-        let Some(ran) = self.picture else { return };
-        settings["samples"] = json!(ran.film.samples);
-        if let Some(outcome) = &ran.report.outcome {
+        settings["samples"] = json!(self.samples);
+        if let Some(outcome) = self.outcome {
             settings["chosen"] = json!(outcome.chosen);
             settings["samples"] = json!(outcome.mean_samples);
             settings["least_samples"] = json!(outcome.least_samples);
@@ -139,7 +146,7 @@ impl Record {
             files: files.into_iter().map(entry).collect(),
             options,
             device: by.device.into(),
-            driver: by.driver.map(String::from),
+            driver: Some(by.driver.into()),
             settings,
         }
     }

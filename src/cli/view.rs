@@ -16,7 +16,7 @@ use super::replay;
 use super::{DEVICE, REPORT};
 use crate::core::error::{Error, Result};
 use crate::gpu::DeviceSelect;
-use crate::lab::view::{Page, Settings, Source, Stop};
+use crate::lab::view::{Page, Recorded, Settings, Source, Stop};
 use crate::render::On;
 use crate::scene::prune::prune;
 use crate::scene::{self, is_standard_input};
@@ -86,10 +86,10 @@ pub fn run(args: &ViewArgs) -> Result<ExitCode> {
     Ok(ExitCode::from(130))
 }
 
-/// Returns the record that `moire render` writes with those arguments.
-fn record(arguments: &[String], device: &str) -> Result<String> {
+/// Returns the record that `moire render` writes of a picture with those arguments.
+fn record(recorded: &Recorded<'_>) -> Result<String> {
     let failed = |error: clap::Error| Error::new(error.to_string());
-    let words = ["moire render"].into_iter().chain(arguments.iter().map(String::as_str));
+    let words = ["moire render"].into_iter().chain(recorded.arguments.iter().map(String::as_str));
     let matches = replay::command().try_get_matches_from(words).map_err(failed)?;
     let args = RenderArgs::from_arg_matches(&matches).map_err(failed)?;
     let path = args.scene.clone().unwrap_or_default();
@@ -97,6 +97,7 @@ fn record(arguments: &[String], device: &str) -> Result<String> {
     args.overrides.apply(&mut scene)?;
     prune(&mut scene);
     let files = Checksums::begin(&scene).finish().named(&[]);
-    let by = Renderer { device, driver: None, picture: None };
+    let Recorded { device, driver, samples, .. } = *recorded;
+    let by = Renderer { device, driver, samples, outcome: None };
     Ok(replay::record_of(&args, &matches, (&path, file), files, &scene, &by).text())
 }

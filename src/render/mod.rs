@@ -60,7 +60,7 @@ pub use images::can_sample;
 pub use kept::{FileStamp, Kept, KeptTextures, stamp};
 pub(crate) use mip_chain::{MipGenerator, MipSource};
 pub use options::{On, Options};
-pub use picture::{Picture, render_kept, render_on, render_scene};
+pub use picture::{Picture, oracle_driver, render_kept, render_on, render_scene};
 pub use plan::integrator;
 pub(crate) use resources::Resources;
 pub use session::{Prepared, Session};

@@ -247,7 +247,12 @@ fn drivers(on: &[On], gpus: &[Gpu]) -> String {
     let mut gpus = gpus.iter();
     let driver = |on: &On| match on {
         On::Device(_) => gpus.next().map(|gpu| gpu.info().driver.clone()).unwrap_or_default(),
-        On::Oracle => format!("moire {} in float64", env!("CARGO_PKG_VERSION")),
+        On::Oracle => oracle_driver(),
     };
     on.iter().map(driver).collect::<Vec<_>>().join(" + ")
+}
+
+/// Returns the name of what stands for a driver where the oracle renders.
+pub fn oracle_driver() -> String {
+    format!("moire {} in float64", env!("CARGO_PKG_VERSION"))
 }

@@ -19,7 +19,7 @@ use crate::core::progress::Progress;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle::backend::OracleBackend;
 use crate::pack::{self, MipPlacement, PackedScene};
-use crate::render::{FileStamp, MipChoice, On, Session, Tuning, integrator, stamp};
+use crate::render::{FileStamp, MipChoice, On, Session, Tuning, integrator, oracle_driver, stamp};
 use crate::scene::model::{Sampling, Scene};
 use crate::scene::texture_advice::of_textures;
 
@@ -77,18 +77,18 @@ struct Made {
     warnings: Vec<String>,
 }
 
-/// Renders what the queue has until it is stopped. Sends the device's name, or why there is none, and calls `changed`
+/// What renders, by name.
+pub struct Names {
+    pub device: String,
+    pub driver: String,
+}
+
+/// Renders what the queue has until it is stopped. Sends the device's names, or why there is none, and calls `changed`
 /// after each picture.
-pub fn work(
-    on: &On,
-    queue: &Queue,
-    textures: &Textures,
-    opened: &Sender<Result<String>>,
-    changed: &dyn Fn(),
-) {
+pub fn work(on: &On, queue: &Queue, textures: &Textures, opened: &Sender<Result<Names>>, changed: &dyn Fn()) {
     let select = match on {
         On::Oracle => {
-            let _ = opened.send(Ok("oracle".into()));
+            let _ = opened.send(Ok(Names { device: "oracle".into(), driver: oracle_driver() }));
             return turns(None, queue, textures, changed);
         }
         On::Device(select) => select,
@@ -98,7 +98,8 @@ pub fn work(
             let _ = opened.send(Err(error));
         }
         Ok(gpu) => {
-            let _ = opened.send(Ok(gpu.info().name.clone()));
+            let (device, driver) = (gpu.info().name.clone(), gpu.info().driver.clone());
+            let _ = opened.send(Ok(Names { device, driver }));
             turns(Some(&gpu), queue, textures, changed);
             drop(gpu);
             again(select, queue, textures, changed);

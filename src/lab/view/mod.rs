@@ -25,7 +25,7 @@ use std::sync::{Arc, mpsc};
 use std::thread::JoinHandle;
 
 pub use http::Stop;
-pub use routes::Recorder;
+pub use routes::{Recorded, Recorder};
 pub use settings::{Settings, Source};
 
 use crate::core::error::{Error, ErrorKind, Result};
@@ -71,10 +71,10 @@ impl Page {
         };
         let failed = |error: std::io::Error| Error::new(format!("a thread cannot be started: {error}"));
         let device = std::thread::Builder::new().name("device".into()).spawn(work).map_err(failed)?;
-        let name = opened.recv().unwrap_or_else(|_| Err(Error::new("the device's thread has ended")))?;
+        let names = opened.recv().unwrap_or_else(|_| Err(Error::new("the device's thread has ended")))?;
         let token = token()?;
         let address = format!("http://127.0.0.1:{}/{token}/", server.port());
-        let routes = Routes { tabs, token, device: name, scene, textures, recorder };
+        let routes = Routes { tabs, token, names, scene, textures, recorder };
         server.run(Arc::new(move |request| routes.answer(request))).map_err(failed)?;
         Ok(Page { address, queue, device })
     }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::choices::described;
-use super::device::told;
+use super::device::{Names, told};
 use super::http::{Answer, Request, Response};
 use super::pixel::pixel;
 use super::settings::Settings;
@@ -34,8 +34,18 @@ const PAGE: [(&str, &str, &str); 11] = [
 ];
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
-/// Returns the record of a picture, from the arguments of `moire render` that make it and the name of what renders.
-pub type Recorder = Box<dyn Fn(&[String], &str) -> Result<String> + Send + Sync>;
+/// What a record says of a picture.
+pub struct Recorded<'a> {
+    /// The arguments of `moire render` that make it.
+    pub arguments: Vec<String>,
+    pub device: &'a str,
+    pub driver: &'a str,
+    /// Samples a pixel.
+    pub samples: u32,
+}
+
+/// Returns the record of a picture.
+pub type Recorder = Box<dyn Fn(&Recorded<'_>) -> Result<String> + Send + Sync>;
 
 /// What answers requests.
 pub struct Routes {
@@ -43,7 +53,7 @@ pub struct Routes {
     /// The secret part of the address.
     pub token: String,
     /// What renders.
-    pub device: String,
+    pub names: Names,
     /// The scene as its file has it, with the program's own settings.
     pub scene: Scene,
     pub textures: Arc<Textures>,
@@ -102,7 +112,7 @@ impl Routes {
         let first = self.tabs.first();
         Response::json(&json!({
             "scene": source.path.display().to_string(),
-            "device": self.device,
+            "device": self.names.device,
             "version": env!("CARGO_PKG_VERSION"),
             "choices": described(&self.scene),
             "first": { "options": first.options, "set": first.set },
@@ -159,8 +169,13 @@ impl Routes {
     fn record(&self, side: &Side, shown: &Shown) -> Option<String> {
         let source = self.tabs.source();
         let is_same = side.refinement.stamp == source.stamp();
-        let record = is_same.then(|| (self.recorder)(&side.arguments(source, shown.count), &self.device));
-        record?.ok()
+        let recorded = Recorded {
+            arguments: side.arguments(source, shown.count),
+            device: &self.names.device,
+            driver: &self.names.driver,
+            samples: shown.film.samples,
+        };
+        is_same.then(|| (self.recorder)(&recorded))?.ok()
     }
 
     fn pixel(&self, request: &Request) -> std::result::Result<Response, u16> {
