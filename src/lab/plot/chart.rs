@@ -238,7 +238,10 @@ impl Chart<'_> {
         for (at, number) in x.ticks(along_x) {
             out += &svg::line([at, top], [at, bottom], "grid");
             if let Some(number) = number {
-                out += &svg::text(at, bottom + 18.0, "middle", "small", &number);
+                // Beneath its tick, but for one at the end of the picture, where it would be cut.
+                let half = 0.5 * area([0.0; 2], &number)[2];
+                out +=
+                    &svg::text(at.min(layout.width - half - 2.0), bottom + 18.0, "middle", "small", &number);
             }
         }
         for (at, number) in y.ticks(along_y) {
